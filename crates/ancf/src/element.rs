@@ -1,0 +1,93 @@
+//! What a finite element of the absolute nodal coordinate formulation must answer.
+//!
+//! An element is linear kinematics plus an energy. Its nodal coordinates are global vectors (the
+//! position of a node and slopes of the position field there), so a material point has the position
+//! `r = sum_k S_k e_k` with constant shape functions, the mass matrix is constant and rigid motion is
+//! exact. The elastic force is minus the gradient of the strain energy, the tangent its Hessian.
+//!
+//! To add an element: one file in `element/`, one `impl Element`, one line
+//! `ancf::element_checks!(...)` in its tests (see CONTRIBUTING.md).
+
+mod beam2_belt;
+
+pub use beam2_belt::BeltBeam2;
+
+use crate::scalar::Scalar;
+
+/// An element with `NODES` nodes of `NODE_VECTORS` vectors in `DIMENSION` dimensions.
+///
+/// Nodal coordinates of an element are stored node by node, vector by vector:
+/// `[r1x, r1y, r1_x x, r1_x y, ...]`, a slice of length [`Element::DOF`].
+/// Two elements that compare equal have the same reference shape, section and material, and may be
+/// computed side by side in SIMD lanes.
+pub trait Element: Clone + PartialEq + std::fmt::Debug + Send + Sync {
+    /// Dimension of space: 2 or 3.
+    const DIMENSION: usize;
+    /// Nodes of the element.
+    const NODES: usize;
+    /// Vectors per node: the position and its slopes.
+    const NODE_VECTORS: usize;
+    /// Coordinates of a node.
+    const NODE_DOF: usize = Self::DIMENSION * Self::NODE_VECTORS;
+    /// Coordinates of the element.
+    const DOF: usize = Self::NODES * Self::NODE_DOF;
+
+    /// Strain energy [J] in the configuration `e` (length `DOF`).
+    fn energy<S: Scalar>(&self, e: &[S]) -> S;
+
+    /// Writes the elastic force `-dU/de` [N, N m] in the configuration `e` to `force`.
+    fn force<S: Scalar>(&self, e: &[S], force: &mut [S]);
+
+    /// Writes the tangent stiffness `d²U/de²`, row-major `DOF x DOF`, to `stiffness`.
+    fn stiffness<S: Scalar>(&self, e: &[S], stiffness: &mut [S]);
+
+    /// Whether the element has internal damping; if not, the damping methods are never called.
+    fn is_damped(&self) -> bool {
+        false
+    }
+
+    /// Adds the internal damping force in the configuration `e` with rates `rate` to `force`.
+    fn add_damping_force<S: Scalar>(&self, e: &[S], rate: &[S], force: &mut [S]) {
+        let _ = (e, rate, force);
+    }
+
+    /// Adds `position_factor * (-dF/de) + rate_factor * (-dF/d rate)` of the damping force, row-major.
+    fn add_damping_tangent<S: Scalar>(
+        &self,
+        e: &[S],
+        rate: &[S],
+        position_factor: f64,
+        rate_factor: f64,
+        tangent: &mut [S],
+    ) {
+        let _ = (e, rate, position_factor, rate_factor, tangent);
+    }
+
+    /// Writes the constant mass between the element's vectors, row-major
+    /// `(NODES * NODE_VECTORS)²`; it acts on every direction of space alike.
+    fn vector_mass(&self, mass: &mut [f64]);
+
+    /// The nodal coordinates of the undeformed element with its first node at the origin and its
+    /// axes along the global ones.
+    fn reference(&self, e: &mut [f64]);
+
+    /// Stiffness times length [N m] that makes energies of this element dimensionless in checks:
+    /// `E A l` for a beam, `E h l w` for a plate.
+    fn energy_scale(&self) -> f64;
+}
+
+/// An element whose material points lie on a line `0 <= x <= length`: beams.
+pub trait LineElement: Element {
+    /// Undeformed length [m].
+    fn length(&self) -> f64;
+
+    /// Shape functions of the centre line at `xi = x / length`, one weight for each vector
+    /// coordinate of the element (length `NODES * NODE_VECTORS`).
+    fn centre_line(&self, xi: f64, weights: &mut [f64]);
+
+    /// Derivatives of [`LineElement::centre_line`] by x [1/m].
+    fn centre_line_slope(&self, xi: f64, weights: &mut [f64]);
+
+    /// Axial force [N] at `xi` in the configuration `e`.
+    fn axial_force(&self, e: &[f64], xi: f64) -> f64;
+}

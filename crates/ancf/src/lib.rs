@@ -1,0 +1,10 @@
+//! Absolute nodal coordinate (ANCF) beams and plates: elements, meshes, rigid coordinates,
+//! constraints, statics and time integration.
+//!
+//! SI units throughout. This crate knows nothing of belts.
+
+pub mod element;
+pub mod material;
+pub mod quadrature;
+pub mod scalar;
+pub mod section;
