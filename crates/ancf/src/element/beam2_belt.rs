@@ -718,6 +718,8 @@ impl BeltBeam2 {
 }
 
 impl LineElement for BeltBeam2 {
+    const CENTRE_VECTORS: &'static [usize] = &HERMITE_VECTORS;
+
     fn length(&self) -> f64 {
         self.length
     }
@@ -730,14 +732,15 @@ impl LineElement for BeltBeam2 {
         spread(hermite_slope(xi, self.length), weights);
     }
 
+    fn jacobian(&self, e: &[f64], xi: f64) -> f64 {
+        let c = self.slope(e, xi);
+        let thickness = |axis: usize| (1.0 - xi) * e[4 + axis] + xi * e[10 + axis];
+        c[0] * thickness(1) - c[1] * thickness(0)
+    }
+
     /// The true axial force `EA (f² - 1) / 2 f` of the stretch `f` of the centre line.
     fn axial_force(&self, e: &[f64], xi: f64) -> f64 {
-        let slope = hermite_slope(xi, self.length);
-        let mut c = [0.0; 2];
-        for (weight, vector) in slope.iter().zip(HERMITE_VECTORS) {
-            c[0] += weight * e[2 * vector];
-            c[1] += weight * e[2 * vector + 1];
-        }
+        let c = self.slope(e, xi);
         let square = c[0] * c[0] + c[1] * c[1];
         self.axial_stiffness * 0.5 * (square - 1.0) * square.sqrt()
     }
