@@ -4,6 +4,7 @@
 //! SI units throughout. This crate knows nothing of belts.
 
 pub mod element;
+pub mod linear;
 pub mod material;
 pub mod quadrature;
 pub mod scalar;
