@@ -3,6 +3,8 @@
 //!
 //! SI units throughout. This crate knows nothing of belts.
 
+#[cfg(feature = "checks")]
+pub mod checks;
 pub mod dynamics;
 pub mod element;
 pub mod linear;
