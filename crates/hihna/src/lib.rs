@@ -5,6 +5,7 @@ pub mod contact;
 pub mod drive;
 pub mod friction;
 pub mod history;
+pub mod layout;
 pub mod observe;
 pub mod profile;
 pub mod record;
