@@ -14,6 +14,7 @@ use crate::drive::{BeltElement, Drive, Friction, Integrator, Step};
 use crate::friction::{Coulomb, CreepRate, FrictionLaw, Frictionless};
 use crate::history::History;
 use crate::layout::Layout;
+use crate::profile::Profile;
 use crate::observe::{Observer, Powers, ProfileRow, PulleyState, SpanState, Stored};
 
 /// Accuracy at which the constants below hold.
@@ -291,7 +292,7 @@ fn place(drive: &Drive, layout: &Layout, motion: &Motion, coordinate: usize, dof
     }
     let node = coordinate / dof;
     let position = [motion.q[node * dof], motion.q[node * dof + 1]];
-    let (from, to) = layout.nearest_pulleys(position);
+    let (from, to) = nearest_pulleys(layout, position);
     let at = format!("node {node} at ({:.4}, {:.4}) m", position[0], position[1]);
     if from == to {
         format!("on pulley `{}`, {at}", drive.pulley[from].name)
@@ -303,6 +304,26 @@ fn place(drive: &Drive, layout: &Layout, motion: &Motion, coordinate: usize, dof
     }
 }
 
+/// The pulley nearest to `position`, twice, or the two at the ends of the span that is nearer.
+fn nearest_pulleys(layout: &Layout, position: [f64; 2]) -> (usize, usize) {
+    let to_arc = layout.arcs.iter().map(|arc| {
+        let (dx, dy) = (position[0] - arc.center[0], position[1] - arc.center[1]);
+        ((dx.hypot(dy) - arc.radius).abs(), (arc.pulley, arc.pulley))
+    });
+    let to_span = layout.spans.iter().map(|span| {
+        let along = [span.end[0] - span.start[0], span.end[1] - span.start[1]];
+        let arm = [position[0] - span.start[0], position[1] - span.start[1]];
+        let square = along[0] * along[0] + along[1] * along[1];
+        let part = ((arm[0] * along[0] + arm[1] * along[1]) / square).clamp(0.0, 1.0);
+        let off = [arm[0] - part * along[0], arm[1] - part * along[1]];
+        (off[0].hypot(off[1]), (span.from, span.to))
+    });
+    to_arc
+        .chain(to_span)
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or((0, 0), |(_, pulleys)| pulleys)
+}
+
 /// Surface speed of the fastest driver [m/s]; where nothing is driven, a hundredth of the belt's
 /// longitudinal wave speed.
 #[must_use]
@@ -312,7 +333,7 @@ pub fn nominal_speed(drive: &Drive) -> f64 {
         .iter()
         .map(|pulley| {
             let speed = pulley.speed.as_ref().map_or(0.0, |s| s.bound());
-            let turning = pulley.angle.as_ref().map_or(0.0, |a| a.slope_bound());
+            let turning = pulley.angle.as_ref().map_or(0.0, slope_bound);
             speed.max(turning) * pulley.radius
         })
         .fold(0.0, f64::max);
@@ -321,6 +342,17 @@ pub fn nominal_speed(drive: &Drive) -> f64 {
     } else {
         0.01 * (drive.belt.axial_factor * drive.belt.youngs_modulus / drive.belt.density).sqrt()
     }
+}
+
+/// Greatest magnitude of the derivative: every kind of piece has it at its start or in its middle.
+fn slope_bound(profile: &Profile) -> f64 {
+    let kinks = profile.kinks();
+    let middles = kinks.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+    kinks
+        .iter()
+        .copied()
+        .chain(middles)
+        .fold(0.0, |bound, t| f64::max(bound, profile.derivative(t).abs()))
 }
 
 /// Step, tolerances and kinks of a run.
