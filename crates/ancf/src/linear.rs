@@ -15,8 +15,9 @@
 
 mod block_size;
 mod cyclic;
-#[allow(dead_code)] // The elimination, next, reads the sections.
+mod kernel;
 mod matrix;
+mod tail;
 
 pub use cyclic::CyclicSolver;
 pub use matrix::{BorderedMatrix, Structure};
