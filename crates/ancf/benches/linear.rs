@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p ancf --bench linear`
 
-use ancf::linear::{BorderedMatrix, CyclicSolver, Solver, Structure};
+use ancf::linear::{BorderedMatrix, CyclicSolver, Solver, SparseSolver, Structure};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -93,6 +93,16 @@ fn bench(criterion: &mut Criterion) {
             &right,
         );
     }
+    let structure = shapes[0].1;
+    let matrix = belt_matrix(structure);
+    let right: Vec<f64> = (0..structure.size()).map(|i| (i as f64).cos()).collect();
+    run(
+        criterion,
+        "sparse 30x6+2",
+        SparseSolver::new(structure),
+        &matrix,
+        &right,
+    );
 }
 
 fn run(

@@ -9,6 +9,17 @@ use pulp::Simd;
 /// Values in the widest SIMD vector (AVX-512).
 pub(super) const LANES: usize = 8;
 
+/// The unit matrix, to select a lane.
+const UNIT_ROWS: [[f64; LANES]; LANES] = {
+    let mut rows = [[0.0; LANES]; LANES];
+    let mut k = 0;
+    while k < LANES {
+        rows[k][k] = 1.0;
+        k += 1;
+    }
+    rows
+};
+
 /// A pivot not larger than this part of what it was computed from is rounding error.
 ///
 /// Sums of `n` terms err by about `n` roundings, so this allows chains of blocks up to some tens
@@ -196,13 +207,24 @@ pub(super) fn accumulate_vector<S: Simd>(
     let width = target.len();
     let rows = vectors::<S>(rows);
     for j in 0..width {
-        // Two sums halve the wait for the previous multiplication.
-        let mut sums = [target[j], simd.splat_f64s(0.0)];
-        for (k, coefficient) in coefficients.iter().enumerate() {
-            let factor = simd.splat_f64s(*coefficient);
-            sums[k % 2] = simd.mul_add_e_f64s(factor, rows[k * width + j], sums[k % 2]);
+        // Several sums shorten the wait for the previous multiplication.
+        let zero = simd.splat_f64s(0.0);
+        let mut sums = [target[j], zero, zero, zero];
+        let quadruples = coefficients.chunks_exact(4);
+        let rest = quadruples.remainder();
+        let done = coefficients.len() - rest.len();
+        for (quadruple, coefficients) in quadruples.enumerate() {
+            for (k, coefficient) in coefficients.iter().enumerate() {
+                let row = rows[(4 * quadruple + k) * width + j];
+                sums[k] = simd.mul_add_e_f64s(simd.splat_f64s(*coefficient), row, sums[k]);
+            }
         }
-        target[j] = simd.add_f64s(sums[0], sums[1]);
+        for (k, coefficient) in rest.iter().enumerate() {
+            let row = rows[(done + k) * width + j];
+            sums[0] = simd.mul_add_e_f64s(simd.splat_f64s(*coefficient), row, sums[0]);
+        }
+        let [first, second, third, fourth] = sums;
+        target[j] = simd.add_f64s(simd.add_f64s(second, third), simd.add_f64s(first, fourth));
     }
 }
 
@@ -224,23 +246,20 @@ pub(super) fn negative_inverse<S: Simd>(
     let swaps = &mut swaps[..n];
     let mut swapped = false;
     for k in 0..n {
-        let mut pivot_row = k;
-        let mut largest = panel[k * stride + k].abs();
-        let keep = largest;
+        let mut largest = 0.0;
         for i in k + 1..n {
             let candidate = panel[i * stride + k].abs();
-            if candidate > largest {
-                largest = candidate;
-                pivot_row = i;
-            }
+            largest = if candidate > largest {
+                candidate
+            } else {
+                largest
+            };
         }
-        if keep >= KEEP_DIAGONAL * largest {
-            pivot_row = k;
-        }
-        swaps[k] = pivot_row;
-        if pivot_row != k {
+        swaps[k] = k;
+        // A branch that is hardly ever taken keeps the search out of the way of the sweep.
+        if panel[k * stride + k].abs() < KEEP_DIAGONAL * largest {
             swapped = true;
-            swap_rows(panel, stride, k, pivot_row);
+            swaps[k] = bring_up_largest(panel, stride, k);
         }
         let pivot = panel[k * stride + k];
         if pivot.is_nan() || pivot.abs() <= VANISHED * scale[k] {
@@ -261,6 +280,22 @@ pub(super) fn negative_inverse<S: Simd>(
     Ok(())
 }
 
+/// Swaps the row with the largest entry of column `k` below the diagonal with row `k`.
+#[cold]
+#[inline(never)]
+fn bring_up_largest(panel: &mut [f64], stride: usize, k: usize) -> usize {
+    let mut largest = k;
+    for i in k + 1..panel.len() / stride {
+        if panel[i * stride + k].abs() > panel[largest * stride + k].abs() {
+            largest = i;
+        }
+    }
+    if largest != k {
+        swap_rows(panel, stride, k, largest);
+    }
+    largest
+}
+
 /// Swaps two rows of a panel.
 pub(super) fn swap_rows(panel: &mut [f64], stride: usize, first: usize, second: usize) {
     let (upper, lower) = panel.split_at_mut(second * stride);
@@ -274,20 +309,29 @@ pub(super) fn sweep<S: Simd>(simd: S, panel: &mut [f64], k: usize, size: impl Bl
     let n = size.get();
     let stride = n.next_multiple_of(LANES);
     let width = stride / S::F64_LANES;
-    let inverse = 1.0 / panel[k * stride + k];
+    let inverse = simd.splat_f64s(1.0 / panel[k * stride + k]);
+    // The lane of column k in its vector: a scalar store there would delay the next vector load.
+    let vector = k / S::F64_LANES;
+    let lanes = vectors::<S>(&UNIT_ROWS[k % LANES])[k % LANES / S::F64_LANES];
+    let lane = simd.equal_f64s(lanes, simd.splat_f64s(1.0));
+    let replace = |j: usize, value: f64, row: S::f64s| {
+        if j == vector {
+            simd.select_f64s(lane, simd.splat_f64s(value), row)
+        } else {
+            row
+        }
+    };
     let (before, rest) = panel.split_at_mut(k * stride);
     let (pivot_row, after) = rest.split_at_mut(stride);
-    pivot_row[k] = -1.0;
     let pivot_row = vectors_mut::<S>(pivot_row);
     for j in 0..width {
-        pivot_row[j] = simd.mul_f64s(pivot_row[j], simd.splat_f64s(inverse));
+        pivot_row[j] = simd.mul_f64s(replace(j, -1.0, pivot_row[j]), inverse);
     }
     for row in (before.chunks_exact_mut(stride)).chain(after.chunks_exact_mut(stride)) {
         let factor = simd.splat_f64s(-row[k]);
-        row[k] = 0.0;
         let row = vectors_mut::<S>(row);
         for j in 0..width {
-            row[j] = simd.mul_add_e_f64s(factor, pivot_row[j], row[j]);
+            row[j] = simd.mul_add_e_f64s(factor, pivot_row[j], replace(j, 0.0, row[j]));
         }
     }
 }
