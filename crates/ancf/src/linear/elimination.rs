@@ -43,18 +43,31 @@ impl<B: BlockSize> WithSimd for Elimination<'_, B> {
             sizes,
         };
         step.start_corner(front);
+        let mut slabs = (factors.chunks_exact_mut(sizes.slab).take(last))
+            .map(|slab| Slab::split(slab, b, step.stride(), sizes));
+        let mut next = slabs.next();
+        if let Some(slab) = &mut next {
+            step.load(0, slab);
+        }
         let mut done: Option<Slab> = None;
-        for (section, slab) in factors.chunks_exact_mut(sizes.slab).take(last).enumerate() {
-            let mut slab = Slab::split(slab, b, step.stride(), sizes);
-            step.load(section, &mut slab, front);
-            if let Some(previous) = &done {
-                step.add_update(previous, &mut slab, front);
+        let mut section = 0;
+        while let Some(mut slab) = next.take() {
+            // The next section is loaded now: vector loads soon after its scalar stores would wait.
+            next = slabs.next();
+            if let Some(slab) = &mut next {
+                step.load(section + 1, slab);
             }
-            step.load_couplings(section, &mut slab, front);
+            front.scale.fill(0.0);
+            raise(simd, &mut front.scale, slab.inverse, size);
+            if let Some(previous) = &done {
+                step.add_update(previous, &mut slab);
+                raise(simd, &mut front.scale, slab.inverse, size);
+            }
             negative_inverse(simd, slab.inverse, size, &front.scale, &mut front.swaps)
                 .map_err(|row| section * b + row)?;
             step.eliminate(section, &mut slab, front);
             done = Some(slab);
+            section += 1;
         }
         if !structure.closed {
             // The last section is no part of the tail so far.
@@ -121,41 +134,48 @@ impl<S: Simd, B: BlockSize> Step<'_, S, B> {
         }
     }
 
-    /// `D`, `F`, `R` of a section as the matrix has them.
+    /// `D`, `F` (in the place of `U`), `R` of a section and `P` of the next as the matrix has them.
     #[inline(always)]
-    fn load(&self, section: usize, slab: &mut Slab, front: &mut Front) {
+    fn load(&self, section: usize, slab: &mut Slab) {
         let (b, border) = (self.size.get(), self.structure.border);
         let (stride, tail_stride) = (self.stride(), self.sizes.tail_stride);
         let start = self.border_start();
         let rows = self.matrix.section_rows(section);
         transpose(slab.inverse, stride, &rows[b..], 3 * b, (b, b));
-        front.columns.fill(0.0);
+        slab.upper_tail[..start * stride].fill(0.0);
         let border_columns = self.matrix.section_border_columns(section);
         transpose(
-            &mut front.columns[start * stride..],
+            &mut slab.upper_tail[start * stride..],
             stride,
             border_columns,
             border,
             (b, border),
         );
-        slab.lower_tail.fill(0.0);
         let border_rows = self.matrix.section_border_rows(section);
         for c in 0..b {
-            slab.lower_tail[c * tail_stride + start..][..border]
-                .copy_from_slice(&border_rows[c * border..][..border]);
+            let row = &mut slab.lower_tail[c * tail_stride..][..tail_stride];
+            row[..start].fill(0.0);
+            row[start..][..border].copy_from_slice(&border_rows[c * border..][..border]);
         }
         if self.structure.closed && section == 0 {
-            transpose(&mut front.columns, stride, rows, 3 * b, (b, b));
+            transpose(slab.upper_tail, stride, rows, 3 * b, (b, b));
             let rows = self.matrix.section_rows(self.structure.sections - 1);
             transpose(slab.lower_tail, tail_stride, &rows[2 * b..], 3 * b, (b, b));
         }
-        front.scale.fill(0.0);
-        raise(self.simd, &mut front.scale, slab.inverse);
+        let next_rows = self.matrix.section_rows(section + 1);
+        if self.has_next(section) {
+            transpose(slab.lower_next, stride, next_rows, 3 * b, (b, b));
+        } else {
+            // The next section is the last one of a closed chain and belongs to the tail.
+            slab.lower_next.fill(0.0);
+            transpose(slab.lower_tail, tail_stride, next_rows, 3 * b, (b, b));
+            transpose(slab.upper_tail, stride, &rows[2 * b..], 3 * b, (b, b));
+        }
     }
 
     /// Adds what the elimination of the section before does to `D`, `F`, `R`.
     #[inline(always)]
-    fn add_update(&self, previous: &Slab, slab: &mut Slab, front: &mut Front) {
+    fn add_update(&self, previous: &Slab, slab: &mut Slab) {
         let (b, tail) = (self.size.get(), self.sizes.tail);
         let (stride, tail_stride) = (self.stride(), self.sizes.tail_stride);
         let next = |k: usize, c: usize| previous.upper_next[c * stride + k];
@@ -164,7 +184,7 @@ impl<S: Simd, B: BlockSize> Step<'_, S, B> {
         accumulate(self.simd, slab.inverse, b, rows, stride, self.size, next);
         accumulate(
             self.simd,
-            &mut front.columns,
+            slab.upper_tail,
             tail,
             rows,
             stride,
@@ -180,28 +200,6 @@ impl<S: Simd, B: BlockSize> Step<'_, S, B> {
             self.size,
             next,
         );
-        raise(self.simd, &mut front.scale, slab.inverse);
-    }
-
-    /// `P` of the next section; where that is the last one of a closed chain, it and `N` belong
-    /// to the couplings with the tail.
-    #[inline(always)]
-    fn load_couplings(&self, section: usize, slab: &mut Slab, front: &mut Front) {
-        let b = self.size.get();
-        let (stride, tail_stride) = (self.stride(), self.sizes.tail_stride);
-        let rows = self.matrix.section_rows(section);
-        let next_rows = self.matrix.section_rows(section + 1);
-        if self.has_next(section) {
-            transpose(slab.lower_next, stride, next_rows, 3 * b, (b, b));
-            return;
-        }
-        slab.lower_next.fill(0.0);
-        for r in 0..b {
-            for c in 0..b {
-                slab.lower_tail[c * tail_stride + r] += next_rows[r * 3 * b + c];
-                front.columns[c * stride + r] += rows[r * 3 * b + 2 * b + c];
-            }
-        }
     }
 
     /// `U` of a section and the update of the tail.
@@ -224,6 +222,7 @@ impl<S: Simd, B: BlockSize> Step<'_, S, B> {
                 |k, c| rows[k * 3 * b + 2 * b + c],
             );
         }
+        front.columns.copy_from_slice(slab.upper_tail);
         slab.upper_tail.fill(0.0);
         accumulate(
             simd,

@@ -111,14 +111,18 @@ pub(super) fn transpose(
     }
 }
 
-/// `scale[r] = max(scale[r], |panel[c][r]|)` over all rows `c`.
+/// `scale[r] = max(scale[r], |panel[c][r]|)` over all rows `c` of a square panel.
 #[inline(always)]
-pub(super) fn raise<S: Simd>(simd: S, scale: &mut [f64], panel: &[f64]) {
-    let scale = vectors_mut::<S>(scale);
-    for row in vectors::<S>(panel).chunks_exact(scale.len()) {
-        for j in 0..scale.len() {
-            scale[j] = simd.max_f64s(scale[j], simd.abs_f64s(row[j]));
+pub(super) fn raise<S: Simd>(simd: S, scale: &mut [f64], panel: &[f64], size: impl BlockSize) {
+    let width = size.get().next_multiple_of(LANES) / S::F64_LANES;
+    let scale = &mut vectors_mut::<S>(scale)[..width];
+    let rows = &vectors::<S>(panel)[..size.get() * width];
+    for j in 0..width {
+        let mut largest = scale[j];
+        for c in 0..size.get() {
+            largest = simd.max_f64s(largest, simd.abs_f64s(rows[c * width + j]));
         }
+        scale[j] = largest;
     }
 }
 
