@@ -30,7 +30,7 @@ use pulp::{Arch, Simd, WithSimd};
 /// Direct solver for [`BorderedMatrix`], linear in the number of sections, without allocation
 /// after [`CyclicSolver::new`].
 ///
-/// Factor: about `sections * (7 b³ + 6 b² t + b t²)` fused multiplications for blocks of `b` and a
+/// Factor: about `sections * (3 b³ + 3 b² t + b t²)` fused multiplications for blocks of `b` and a
 /// tail of `t = border` (open) or `t = b + border` (closed) unknowns; solve: `sections * (3 b² + 2 b t)`.
 #[derive(Clone, Debug)]
 pub struct CyclicSolver {
