@@ -11,15 +11,19 @@
 //! ```
 //!
 //! [`BorderedMatrix`] stores exactly this pattern, [`CyclicSolver`] factors it in a time
-//! proportional to the number of sections, a general sparse solver is the path for matrices that need pivots across sections.
+//! proportional to the number of sections, [`SparseSolver`] is the general path through `faer` for matrices that need pivots across sections.
 
 mod block_size;
 mod cyclic;
-#[allow(dead_code)] // The elimination, next, reads the sections.
+mod elimination;
+mod kernel;
 mod matrix;
+mod sparse;
+mod tail;
 
 pub use cyclic::CyclicSolver;
 pub use matrix::{BorderedMatrix, Structure};
+pub use sparse::SparseSolver;
 
 /// The matrix has no inverse within rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -49,42 +53,6 @@ pub trait Solver {
     /// Replaces the right-hand side `x` (length [`Structure::size`]) by the solution.
     ///
     /// # Panics
-    /// If `x` has another length.
+    /// If `x` has another length or the last [`Solver::factor`] did not succeed.
     fn solve(&mut self, x: &mut [f64]);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A closed chain with a border, diagonally dominant: the solution reproduces the right-hand
-    /// side within a few roundings.
-    #[test]
-    fn solves_a_closed_chain() {
-        let structure = Structure {
-            sections: 4,
-            block: 2,
-            closed: true,
-            border: 1,
-        };
-        let mut matrix = BorderedMatrix::new(structure);
-        let local: Vec<f64> = (0..16).map(|i| f64::from(i * i % 7) - 3.0).collect();
-        for section in 0..4 {
-            matrix.add_pair(section, 0.5, &local);
-        }
-        matrix.add_border_column(0, 6, &[1.0, 2.0, 3.0]);
-        matrix.add_border_row(0, 1, &[1.0, -2.0]);
-        for i in 0..structure.size() {
-            matrix.add(i, i, 30.0);
-        }
-        let exact: Vec<f64> = (0..structure.size()).map(|i| i as f64 - 3.5).collect();
-        let mut x = vec![0.0; structure.size()];
-        matrix.multiply(&exact, &mut x);
-        let mut solver = CyclicSolver::new(structure);
-        solver.factor(&matrix).unwrap();
-        solver.solve(&mut x);
-        for (x, exact) in x.iter().zip(&exact) {
-            assert!((x - exact).abs() < 1e-14 * 8.0, "{x} {exact}");
-        }
-    }
 }
