@@ -27,6 +27,7 @@
 
 use std::num::NonZeroUsize;
 
+use super::hermite::{self, VECTORS as HERMITE_VECTORS};
 use super::{Element, LineElement};
 use crate::material::Isotropic;
 use crate::quadrature::Rule;
@@ -77,41 +78,6 @@ struct Point {
     curve: [f64; 4],
 }
 
-/// Cubic Hermite functions of (r1, r1_x, r2, r2_x) at `xi` on an element of length `l`.
-fn hermite(xi: f64, l: f64) -> [f64; 4] {
-    let (x2, x3) = (xi * xi, xi * xi * xi);
-    [
-        1.0 - 3.0 * x2 + 2.0 * x3,
-        l * (xi - 2.0 * x2 + x3),
-        3.0 * x2 - 2.0 * x3,
-        l * (x3 - x2),
-    ]
-}
-
-/// First derivatives by x of [`hermite`].
-fn hermite_slope(xi: f64, l: f64) -> [f64; 4] {
-    let x2 = xi * xi;
-    [
-        6.0 * (x2 - xi) / l,
-        1.0 - 4.0 * xi + 3.0 * x2,
-        6.0 * (xi - x2) / l,
-        3.0 * x2 - 2.0 * xi,
-    ]
-}
-
-/// Second derivatives by x of [`hermite`].
-fn hermite_curve(xi: f64, l: f64) -> [f64; 4] {
-    [
-        (12.0 * xi - 6.0) / (l * l),
-        (6.0 * xi - 4.0) / l,
-        (6.0 - 12.0 * xi) / (l * l),
-        (6.0 * xi - 2.0) / l,
-    ]
-}
-
-/// Where the four Hermite functions find their vectors among the element's six.
-const HERMITE_VECTORS: [usize; 4] = [0, 1, 3, 4];
-
 impl BeltBeam2 {
     /// A belt beam of undeformed length `length` [m].
     ///
@@ -135,8 +101,8 @@ impl BeltBeam2 {
             Point {
                 weight: rule.weights[i] * length,
                 xi,
-                slope: hermite_slope(xi, length),
-                curve: hermite_curve(xi, length),
+                slope: hermite::slope(xi, length),
+                curve: hermite::curve(xi, length),
             }
         });
         Self {
@@ -309,6 +275,7 @@ impl Element for BeltBeam2 {
     const NODES: usize = 2;
     const NODE_VECTORS: usize = 3;
 
+    #[inline(always)]
     fn energy<S: Scalar>(&self, e: &[S]) -> S {
         let e = coordinates(e);
         let nodes = [Node::new(e, 0), Node::new(e, 1)];
@@ -488,6 +455,7 @@ impl Element for BeltBeam2 {
 
     /// Kelvin-Voigt forces `-tau (EA e' de/dq + EI2 kappa' dkappa/dq)` of the axial Green strain
     /// `e = (a - 1) / 2` and the turning `kappa`: both are zero in rigid motion.
+    #[inline(always)]
     fn add_damping_force<S: Scalar>(&self, e: &[S], rate: &[S], force: &mut [S]) {
         let (e, rate) = (coordinates(e), coordinates(rate));
         let none = [S::zero(); 2];
@@ -512,6 +480,7 @@ impl Element for BeltBeam2 {
         }
     }
 
+    #[inline(always)]
     fn add_damping_tangent<S: Scalar>(
         &self,
         e: &[S],
@@ -728,11 +697,11 @@ impl LineElement for BeltBeam2 {
     }
 
     fn centre_line(&self, xi: f64, weights: &mut [f64]) {
-        spread(hermite(xi, self.length), weights);
+        hermite::spread(hermite::value(xi, self.length), weights);
     }
 
     fn centre_line_slope(&self, xi: f64, weights: &mut [f64]) {
-        spread(hermite_slope(xi, self.length), weights);
+        hermite::spread(hermite::slope(xi, self.length), weights);
     }
 
     fn jacobian(&self, e: &[f64], xi: f64) -> f64 {
@@ -746,12 +715,5 @@ impl LineElement for BeltBeam2 {
         let c = self.slope(e, xi);
         let square = c[0] * c[0] + c[1] * c[1];
         self.axial_stiffness * 0.5 * (square - 1.0) * square.sqrt()
-    }
-}
-
-fn spread(hermite: [f64; 4], weights: &mut [f64]) {
-    weights[..6].fill(0.0);
-    for (value, vector) in hermite.into_iter().zip(HERMITE_VECTORS) {
-        weights[vector] = value;
     }
 }
