@@ -131,6 +131,32 @@ impl<const L: usize> Scalar for Lanes<L> {
     }
 }
 
+/// Writes a short loop out, `unroll!(for i in 0..3 { ... })`.
+///
+/// Left as a loop over [`Lanes`], the compiler may vectorise along `i` with gathers instead of across
+/// the lanes, several times slower.
+macro_rules! unroll {
+    (for $i:ident in 0..2 $body:block) => {
+        unroll!(@ $i $body 0 1)
+    };
+    (for $i:ident in 0..3 $body:block) => {
+        unroll!(@ $i $body 0 1 2)
+    };
+    (for $i:ident in 0..4 $body:block) => {
+        unroll!(@ $i $body 0 1 2 3)
+    };
+    (for $i:ident in 0..6 $body:block) => {
+        unroll!(@ $i $body 0 1 2 3 4 5)
+    };
+    (@ $i:ident $body:block $($n:literal)*) => {{
+        $({
+            let $i: usize = $n;
+            $body
+        })*
+    }};
+}
+pub(crate) use unroll;
+
 #[cfg(feature = "checks")]
 macro_rules! dual_scalar {
     ($dual:ty) => {
