@@ -2,17 +2,15 @@
 //!
 //! `cargo bench -p ancf --bench elements`. The throughput column is elements per second; each time
 //! printed is that of [`COUNT`] elements. Elements are gathered, computed and scattered as an
-//! assembly does, inside `pulp`'s dispatch to the widest instruction set the processor has.
+//! assembly does, in the widest registers the processor has.
 
 use std::hint::black_box;
-use std::marker::PhantomData;
 
 use ancf::element::{BeltBeam2, CubicBeam2, Element, LinearBeam2};
 use ancf::material::Isotropic;
-use ancf::scalar::{Lanes, Scalar};
+use ancf::scalar::{EightLanes, LaneKernel, Scalar, dispatch};
 use ancf::section::PlanarSection;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use pulp::{Arch, Simd, WithSimd};
 
 /// Elements of a batch.
 const COUNT: usize = 64;
@@ -53,79 +51,59 @@ fn element<E: Element>(criterion: &mut Criterion, name: &str, element: &E) {
     ] {
         group.bench_function(format!("{label}/plain"), |bencher| {
             bencher.iter(|| {
-                Arch::new().dispatch(Batch::<E, f64, 1>::new(element, &states, work));
+                for e in &states {
+                    compute(element, e, work);
+                }
             });
         });
         group.bench_function(format!("{label}/lanes"), |bencher| {
             bencher.iter(|| {
-                Arch::new().dispatch(Batch::<E, Lanes<8>, 8>::new(element, &states, work));
+                dispatch(Batch {
+                    element,
+                    states: &states,
+                    work,
+                });
             });
         });
     }
     group.finish();
 }
 
-/// All states, `L` at a time. A type of its own, not a closure: only a function that is always inlined
-/// is compiled with the instructions that the dispatch found.
-struct Batch<'a, E, S, const L: usize> {
+/// All states, eight at a time.
+struct Batch<'a, E> {
     element: &'a E,
     states: &'a [Vec<f64>],
     work: Work,
-    scalar: PhantomData<S>,
 }
 
-impl<'a, E, S, const L: usize> Batch<'a, E, S, L> {
-    fn new(element: &'a E, states: &'a [Vec<f64>], work: Work) -> Self {
-        Self {
-            element,
-            states,
-            work,
-            scalar: PhantomData,
-        }
-    }
-}
-
-impl<E: Element, S: Packed<L>, const L: usize> WithSimd for Batch<'_, E, S, L> {
+impl<E: Element> LaneKernel for Batch<'_, E> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<T: Simd>(self, _simd: T) {
+    fn run<S: EightLanes>(self) {
         let mut e = [S::zero(); MOST];
-        let mut force = [S::zero(); MOST];
+        for group in self.states.chunks_exact(8) {
+            for (i, value) in e[..E::DOF].iter_mut().enumerate() {
+                let mut lanes = [0.0; 8];
+                for lane in 0..8 {
+                    lanes[lane] = group[lane][i];
+                }
+                *value = S::load(&lanes);
+            }
+            compute(self.element, &e[..E::DOF], self.work);
+        }
+    }
+}
+
+#[inline(always)]
+fn compute<E: Element, S: Scalar>(element: &E, e: &[S], work: Work) {
+    let mut force = [S::zero(); MOST];
+    element.force(black_box(e), &mut force[..E::DOF]);
+    black_box(&force);
+    if matches!(work, Work::ForceAndTangent) {
         let mut tangent = [S::zero(); MOST * MOST];
-        for group in self.states.chunks_exact(L) {
-            S::gather(group, &mut e[..E::DOF]);
-            let e = black_box(&e[..E::DOF]);
-            self.element.force(e, &mut force[..E::DOF]);
-            black_box(&force);
-            if matches!(self.work, Work::ForceAndTangent) {
-                self.element.stiffness(e, &mut tangent[..E::DOF * E::DOF]);
-                black_box(&tangent);
-            }
-        }
-    }
-}
-
-/// Numbers that hold `L` elements side by side.
-trait Packed<const L: usize>: Scalar {
-    fn gather(states: &[Vec<f64>], e: &mut [Self]);
-}
-
-impl Packed<1> for f64 {
-    #[inline(always)]
-    fn gather(states: &[Vec<f64>], e: &mut [Self]) {
-        e.copy_from_slice(&states[0]);
-    }
-}
-
-impl<const L: usize> Packed<L> for Lanes<L> {
-    #[inline(always)]
-    fn gather(states: &[Vec<f64>], e: &mut [Self]) {
-        for (i, value) in e.iter_mut().enumerate() {
-            for lane in 0..L {
-                value.0[lane] = states[lane][i];
-            }
-        }
+        element.stiffness(black_box(e), &mut tangent[..E::DOF * E::DOF]);
+        black_box(&tangent);
     }
 }
 

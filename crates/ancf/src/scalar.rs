@@ -4,6 +4,10 @@
 //! branching (see [`Scalar::select_positive`]), so one text serves plain numbers, SIMD lanes and
 //! automatic differentiation.
 
+mod wide;
+
+pub use wide::{EightLanes, LaneKernel, Present, Wide, dispatch};
+
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number that kernels compute with.
@@ -61,8 +65,8 @@ impl Scalar for f64 {
     }
 }
 
-/// `L` numbers side by side; every operation acts on each. The compiler turns them into SIMD
-/// registers of whatever width the running processor has.
+/// `L` numbers side by side; every operation acts on each. The compiler may turn short kernels into SIMD
+/// instructions; [`Wide`] numbers are registers in any.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct Lanes<const L: usize>(pub [f64; L]);
