@@ -143,6 +143,7 @@ impl BeltBeam2 {
 
 #[inline(always)]
 fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
+    // A caller with a shorter slice breaks the contract of `Element`; no input of a user reaches this.
     let Some(e) = e.first_chunk::<DOF>() else {
         panic!("a belt beam has {DOF} coordinates, not {}", e.len());
     };
@@ -151,6 +152,7 @@ fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
 
 #[inline(always)]
 fn coordinates_mut<S: Scalar>(force: &mut [S]) -> &mut [S; DOF] {
+    // A caller with a shorter slice breaks the contract of `Element`; no input of a user reaches this.
     let length = force.len();
     let Some(force) = force.first_chunk_mut::<DOF>() else {
         panic!("a belt beam has {DOF} coordinates, not {length}");
@@ -160,6 +162,7 @@ fn coordinates_mut<S: Scalar>(force: &mut [S]) -> &mut [S; DOF] {
 
 #[inline(always)]
 fn matrix_mut<S: Scalar>(matrix: &mut [S]) -> &mut [S; DOF * DOF] {
+    // A caller with a shorter slice breaks the contract of `Element`; no input of a user reaches this.
     let length = matrix.len();
     let Some(matrix) = matrix.first_chunk_mut::<{ DOF * DOF }>() else {
         panic!("a belt beam's matrix has {DOF}² entries, not {length}");

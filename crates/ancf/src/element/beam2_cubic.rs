@@ -23,28 +23,25 @@
 //! Gauss-Legendre for a rectangle. `D = sum_k e_k g_k^T` with the constant gradients
 //! `g_k = J0^-T (S_k,x, S_k,y)`. The law is isotropic, so the axes of J0 do not matter.
 
+mod curved;
+
 use std::num::NonZeroUsize;
 
 use thiserror::Error;
 
+use self::curved::{CurvedPoint, Moduli, SECTION_POINTS};
 use super::hermite;
 use super::plane_section::{PlaneSection, Vectors};
 use super::{Element, LineElement};
 use crate::material::Isotropic;
 use crate::quadrature::Rule;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, unroll};
 use crate::section::PlanarSection;
 
 /// Gauss points along the element, as published.
 const POINTS: usize = 4;
 
-/// Points of the section of a curved element.
-const SECTION_POINTS: usize = 3;
-
 const CURVED_POINTS: usize = POINTS * SECTION_POINTS;
-
-/// Gauss points of the mass of a curved element: exact to the degree 11 of S^T S det J0.
-const MASS_POINTS: usize = 6;
 
 const DOF: usize = 12;
 
@@ -89,124 +86,8 @@ struct Point {
     slope: [f64; 4],
 }
 
-/// lambda + 2 mu, lambda and mu [Pa].
-#[derive(Clone, Debug, PartialEq)]
-struct Moduli {
-    normal: f64,
-    coupling: f64,
-    shear: f64,
-}
-
-/// A material point of a curved element.
-#[derive(Clone, Debug, PartialEq)]
-struct CurvedPoint {
-    /// Weight times volume [m³].
-    weight: f64,
-    /// Gradients of the six shape functions by the reference place.
-    gradients: [[f64; 2]; 6],
-}
-
-impl Moduli {
-    fn new(material: &Isotropic) -> Self {
-        let shear = material.shear_modulus();
-        let coupling = material.lame_lambda();
-        Self {
-            normal: coupling + 2.0 * shear,
-            coupling,
-            shear,
-        }
-    }
-
-    /// Second Piola-Kirchhoff stress (xx, yy, xy) of the gradient `[D e_x, D e_y]`.
-    #[inline(always)]
-    fn stress<S: Scalar>(&self, [f, g]: [[S; 2]; 2]) -> [S; 3] {
-        let exx = (f[0] * f[0] + f[1] * f[1] - 1.0) * 0.5;
-        let eyy = (g[0] * g[0] + g[1] * g[1] - 1.0) * 0.5;
-        [
-            exx * self.normal + eyy * self.coupling,
-            eyy * self.normal + exx * self.coupling,
-            (f[0] * g[0] + f[1] * g[1]) * self.shear,
-        ]
-    }
-
-    /// First Piola-Kirchhoff stress, column by column.
-    #[inline(always)]
-    fn nominal_stress<S: Scalar>(&self, [f, g]: [[S; 2]; 2]) -> [[S; 2]; 2] {
-        let [xx, yy, xy] = self.stress([f, g]);
-        [
-            [f[0] * xx + g[0] * xy, f[1] * xx + g[1] * xy],
-            [f[0] * xy + g[0] * yy, f[1] * xy + g[1] * yy],
-        ]
-    }
-}
-
-/// `(y, area)` of the three points that have the section's moments up to y⁵.
-fn section_rule(section: &PlanarSection) -> [(f64, f64); SECTION_POINTS] {
-    let y = (section.fourth_moment / section.second_moment).sqrt();
-    let outer = section.second_moment.powi(2) / (2.0 * section.fourth_moment);
-    [(-y, outer), (0.0, section.area - 2.0 * outer), (y, outer)]
-}
-
-/// Derivatives of the six shape functions by the parameters x and y.
-fn shape_derivatives(xi: f64, y: f64, l: f64) -> [[f64; 2]; 6] {
-    let mut derivatives = [[0.0; 2]; 6];
-    for (slope, vector) in hermite::slope(xi, l).into_iter().zip(hermite::VECTORS) {
-        derivatives[vector][0] = slope;
-    }
-    derivatives[2] = [-y / l, 1.0 - xi];
-    derivatives[5] = [y / l, xi];
-    derivatives
-}
-
-/// `sum_k e_k s_k^T`, column by column.
-#[inline(always)]
-fn gradient<S: Scalar>(e: &[S; DOF], shapes: &[[f64; 2]; 6]) -> [[S; 2]; 2] {
-    let mut columns = [[S::zero(); 2]; 2];
-    for (k, shape) in shapes.iter().enumerate() {
-        for column in 0..2 {
-            for axis in 0..2 {
-                columns[column][axis] += e[2 * k + axis] * shape[column];
-            }
-        }
-    }
-    columns
-}
-
-/// Rows of the inverse of the matrix with the given columns, and its determinant.
-fn inverse([f, g]: [[f64; 2]; 2]) -> ([[f64; 2]; 2], f64) {
-    let determinant = f[0] * g[1] - f[1] * g[0];
-    (
-        [
-            [g[1] / determinant, -g[0] / determinant],
-            [-f[1] / determinant, f[0] / determinant],
-        ],
-        determinant,
-    )
-}
-
 fn gauss(count: usize) -> Rule {
     Rule::gauss(NonZeroUsize::new(count).unwrap_or(NonZeroUsize::MIN))
-}
-
-/// rho ∫ S^T S det J0 dV between the six vectors, row-major.
-fn mass(reference: &[f64; DOF], length: f64, section: &PlanarSection, density: f64) -> [f64; 36] {
-    let rule = gauss(MASS_POINTS);
-    let mut mass = [0.0; 36];
-    for (xi, weight) in rule.points.iter().zip(&rule.weights) {
-        let hermite = hermite::value(*xi, length);
-        for (y, area) in section_rule(section) {
-            let (_, jacobian) = inverse(gradient(reference, &shape_derivatives(*xi, y, length)));
-            let weight = weight * length * area * density * jacobian;
-            let [a, b, c, d] = hermite;
-            let shapes = [a, b, y * (1.0 - xi), c, d, y * xi];
-            for (row, left) in shapes.into_iter().enumerate() {
-                for (column, right) in shapes.into_iter().enumerate() {
-                    mass[6 * row + column] += left * right * weight;
-                }
-            }
-        }
-    }
-    mass
 }
 
 impl CubicBeam2 {
@@ -244,37 +125,23 @@ impl CubicBeam2 {
         material: &Isotropic,
     ) -> Result<Self, FoldedReference> {
         let rule = gauss(POINTS);
-        let across = section_rule(section);
-        let place = |i: usize| {
-            (
-                rule.points[i / SECTION_POINTS],
-                across[i % SECTION_POINTS].0,
-            )
-        };
-        let frame = |i: usize| {
-            let (xi, y) = place(i);
-            let shapes = shape_derivatives(xi, y, length);
-            let (rows, jacobian) = inverse(gradient(reference, &shapes));
-            (shapes, rows, jacobian)
+        let point = |i: usize| {
+            let (along, across) = (i / SECTION_POINTS, i % SECTION_POINTS);
+            let (y, area) = curved::section_rule(section)[across];
+            let mut point = CurvedPoint::new(reference, rule.points[along], y, length);
+            let jacobian = point.weight;
+            point.weight *= rule.weights[along] * length * area;
+            (point, y, jacobian)
         };
         for i in 0..CURVED_POINTS {
-            let (_, _, jacobian) = frame(i);
+            let (_, y, jacobian) = point(i);
             // NaN is no element either.
             if jacobian <= 0.0 || jacobian.is_nan() {
-                let (xi, y) = place(i);
+                let xi = rule.points[i / SECTION_POINTS];
                 return Err(FoldedReference { xi, y, jacobian });
             }
         }
-        let points = Box::new(std::array::from_fn(|i| {
-            let (shapes, rows, jacobian) = frame(i);
-            let volume = length * across[i % SECTION_POINTS].1 * jacobian;
-            CurvedPoint {
-                weight: rule.weights[i / SECTION_POINTS] * volume,
-                gradients: shapes.map(|[by_x, by_y]| {
-                    std::array::from_fn(|j| by_x * rows[0][j] + by_y * rows[1][j])
-                }),
-            }
-        }));
+        let points = Box::new(std::array::from_fn(|i| point(i).0));
         let integration = Integration::Curved(Moduli::new(material), *section, points);
         let mut centred = *reference;
         for node in [0, 6] {
@@ -302,7 +169,7 @@ impl CubicBeam2 {
             per_length: 1.0 / length,
             axial_stiffness: material.youngs_modulus * section.area,
             reference,
-            vector_mass: mass(&reference, length, section, material.density),
+            vector_mass: curved::mass(&reference, length, section, material.density),
             integration,
         }
     }
@@ -370,87 +237,46 @@ impl CubicBeam2 {
             // d = left r1_y + right r2_y,  w = (r2_y - r1_y) per_length
             let fibre = [1.0 - point.xi, point.xi];
             let turn = [-self.per_length, self.per_length];
-            for i in 0..2 {
-                for j in 0..2 {
-                    for (a, row) in hermite::VECTORS.into_iter().enumerate() {
-                        let scaled = h.cc[i][j] * point.slope[a];
-                        for (b, column) in hermite::VECTORS.into_iter().enumerate() {
-                            out[2 * row + i][2 * column + j] += scaled * point.slope[b];
-                        }
-                    }
-                    for m in 0..2 {
+            let slope = &point.slope;
+            unroll!(for i in 0..2 {
+                unroll!(for j in 0..2 {
+                    unroll!(for a in 0..4 {
+                        let row = 2 * hermite::VECTORS[a] + i;
+                        let scaled = h.cc[i][j] * slope[a];
+                        unroll!(for b in 0..4 {
+                            out[row][2 * hermite::VECTORS[b] + j] += scaled * slope[b];
+                        });
+                    });
+                    unroll!(for m in 0..2 {
                         let mixed = h.cw[i][j] * turn[m] + h.cd[i][j] * fibre[m];
-                        for (a, row) in hermite::VECTORS.into_iter().enumerate() {
-                            out[2 * row + i][6 * m + 4 + j] += mixed * point.slope[a];
-                        }
-                        for k in 0..2 {
+                        unroll!(for a in 0..4 {
+                            out[2 * hermite::VECTORS[a] + i][6 * m + 4 + j] += mixed * slope[a];
+                        });
+                        unroll!(for k in 0..2 {
                             out[6 * k + 4 + i][6 * m + 4 + j] += h.ww[i][j] * (turn[k] * turn[m])
                                 + h.wd[i][j] * (turn[k] * fibre[m])
                                 + h.wd[j][i] * (fibre[k] * turn[m])
                                 + h.dd[i][j] * (fibre[k] * fibre[m]);
-                        }
-                    }
-                }
-            }
+                        });
+                    });
+                });
+            });
         }
-        for fibre in [4, 5, 10, 11] {
-            for vector in hermite::VECTORS {
-                for axis in 0..2 {
-                    out[fibre][2 * vector + axis] = out[2 * vector + axis][fibre];
-                }
-            }
-        }
+        unroll!(for k in 0..4 {
+            let fibre = [4, 5, 10, 11][k];
+            unroll!(for a in 0..4 {
+                let vector = 2 * hermite::VECTORS[a];
+                out[fibre][vector] = out[vector][fibre];
+                out[fibre][vector + 1] = out[vector + 1][fibre];
+            });
+        });
         out
     }
 }
 
 #[inline(always)]
-fn curved_force<S: Scalar>(moduli: &Moduli, points: &[CurvedPoint], e: &[S; DOF]) -> [S; DOF] {
-    let mut out = [S::zero(); DOF];
-    for point in points {
-        let stress = moduli.nominal_stress(gradient(e, &point.gradients));
-        for (k, shape) in point.gradients.iter().enumerate() {
-            for axis in 0..2 {
-                out[2 * k + axis] -= stress[0][axis] * (shape[0] * point.weight)
-                    + stress[1][axis] * (shape[1] * point.weight);
-            }
-        }
-    }
-    out
-}
-
-#[inline(always)]
-fn curved_stiffness<S: Scalar>(
-    moduli: &Moduli,
-    points: &[CurvedPoint],
-    e: &[S; DOF],
-) -> [[S; DOF]; DOF] {
-    let mut out = [[S::zero(); DOF]; DOF];
-    for point in points {
-        let [f, g] = gradient(e, &point.gradients);
-        let [xx, yy, xy] = moduli.stress([f, g]);
-        for i in 0..2 {
-            for j in 0..2 {
-                let unit = if i == j { 1.0 } else { 0.0 };
-                let f_f = f[i] * f[j] * moduli.normal + g[i] * g[j] * moduli.shear + xx * unit;
-                let f_g = f[i] * g[j] * moduli.coupling + g[i] * f[j] * moduli.shear + xy * unit;
-                let g_f = g[i] * f[j] * moduli.coupling + f[i] * g[j] * moduli.shear + xy * unit;
-                let g_g = g[i] * g[j] * moduli.normal + f[i] * f[j] * moduli.shear + yy * unit;
-                for (k, [x, y]) in point.gradients.iter().enumerate() {
-                    let (x, y) = (x * point.weight, y * point.weight);
-                    let (by_f, by_g) = (f_f * x + g_f * y, f_g * x + g_g * y);
-                    for (m, [x, y]) in point.gradients.iter().enumerate() {
-                        out[2 * k + i][2 * m + j] += by_f * *x + by_g * *y;
-                    }
-                }
-            }
-        }
-    }
-    out
-}
-
-#[inline(always)]
 fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
+    // A caller with a shorter slice breaks the contract of `Element`; no input of a user reaches this.
     let Some(e) = e.first_chunk::<DOF>() else {
         panic!("a cubic beam has {DOF} coordinates, not {}", e.len());
     };
@@ -474,12 +300,7 @@ impl Element for CubicBeam2 {
             }
             Integration::Curved(moduli, _, points) => {
                 for point in points.iter() {
-                    let [f, g] = gradient(e, &point.gradients);
-                    let [xx, yy, xy] = moduli.stress([f, g]);
-                    let exx = (f[0] * f[0] + f[1] * f[1] - 1.0) * 0.5;
-                    let eyy = (g[0] * g[0] + g[1] * g[1] - 1.0) * 0.5;
-                    let shear = f[0] * g[0] + f[1] * g[1];
-                    energy += (xx * exx + yy * eyy + xy * shear) * (0.5 * point.weight);
+                    energy += moduli.energy(point.gradient(e)) * point.weight;
                 }
             }
         }
@@ -491,7 +312,7 @@ impl Element for CubicBeam2 {
         let e = coordinates(e);
         let out = match &self.integration {
             Integration::Straight(law, points) => self.straight_force(law, points, e),
-            Integration::Curved(moduli, _, points) => curved_force(moduli, &points[..], e),
+            Integration::Curved(moduli, _, points) => moduli.force(&points[..], e),
         };
         force[..DOF].copy_from_slice(&out);
     }
@@ -501,7 +322,7 @@ impl Element for CubicBeam2 {
         let e = coordinates(e);
         let out = match &self.integration {
             Integration::Straight(law, points) => self.straight_stiffness(law, points, e),
-            Integration::Curved(moduli, _, points) => curved_stiffness(moduli, &points[..], e),
+            Integration::Curved(moduli, _, points) => moduli.stiffness(&points[..], e),
         };
         for (row, values) in stiffness.chunks_exact_mut(DOF).zip(&out) {
             row.copy_from_slice(values);
@@ -538,9 +359,9 @@ impl LineElement for CubicBeam2 {
     }
 
     fn jacobian(&self, e: &[f64], xi: f64) -> f64 {
-        let shapes = shape_derivatives(xi, 0.0, self.length);
-        let (_, reference) = inverse(gradient(&self.reference, &shapes));
-        inverse(gradient(coordinates(e), &shapes)).1 / reference
+        let place = CurvedPoint::new(&self.reference, xi, 0.0, self.length);
+        let [f, g] = place.gradient(coordinates(e));
+        f[0] * g[1] - f[1] * g[0]
     }
 
     /// The section force along the centre line, `dW/dc . c / |c|`.
@@ -551,16 +372,10 @@ impl LineElement for CubicBeam2 {
             Integration::Straight(law, _) => law.gradient(at).c,
             Integration::Curved(moduli, section, _) => {
                 let mut by_c = [0.0; 2];
-                for (y, area) in section_rule(section) {
-                    let shapes = shape_derivatives(xi, y, self.length);
-                    let (rows, jacobian) = inverse(gradient(&self.reference, &shapes));
-                    let by_place = shapes.map(|[by_x, by_y]| {
-                        std::array::from_fn(|j| by_x * rows[0][j] + by_y * rows[1][j])
-                    });
-                    let stress = moduli.nominal_stress(gradient(e, &by_place));
+                for (y, area) in curved::section_rule(section) {
+                    let by_c_here = moduli.section_force(&self.reference, e, xi, y, self.length);
                     for axis in 0..2 {
-                        by_c[axis] += (stress[0][axis] * rows[0][0] + stress[1][axis] * rows[0][1])
-                            * (area * jacobian);
+                        by_c[axis] += by_c_here[axis] * area;
                     }
                 }
                 by_c

@@ -74,6 +74,7 @@ impl LinearBeam2 {
 
 #[inline(always)]
 fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
+    // A caller with a shorter slice breaks the contract of `Element`; no input of a user reaches this.
     let Some(e) = e.first_chunk::<DOF>() else {
         panic!("a linear beam has {DOF} coordinates, not {}", e.len());
     };
