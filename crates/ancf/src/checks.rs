@@ -18,9 +18,11 @@
     reason = "every check panics where the element fails it"
 )]
 
+mod lanes;
 mod line;
 mod states;
 
+pub use lanes::lanes_equal_plain_numbers;
 pub use line::centre_line_is_consistent;
 pub use states::{deformed_state, reference};
 
@@ -28,7 +30,7 @@ use faer::{Mat, Side};
 use num_dual::{Dual64, HyperDual64};
 
 use crate::element::Element;
-use crate::scalar::{Lanes, Scalar};
+use crate::scalar::Scalar;
 use states::{RigidMotion, length_scale, random_rate, units};
 
 /// Agreement with dual numbers: both sides are exact but for round-off.
@@ -298,49 +300,6 @@ pub fn mass_is_consistent<E: Element>(element: &E, total: f64) {
         (sum - total).abs() < 1e-13 * total,
         "mass {sum:e}, not {total:e}"
     );
-}
-
-/// Four and eight lanes compute bit for bit what plain numbers do.
-pub fn lanes_equal_plain_numbers<E: Element>(element: &E) {
-    lanes_equal::<E, 4>(element);
-    lanes_equal::<E, 8>(element);
-}
-
-fn lanes_equal<E: Element, const L: usize>(element: &E) {
-    let n = E::DOF;
-    let states: [Vec<f64>; L] = std::array::from_fn(|i| deformed_state(element, i as u64));
-    let rates: [Vec<f64>; L] = std::array::from_fn(|i| random_rate(element, i as u64));
-    let gather = |vectors: &[Vec<f64>; L]| -> Vec<Lanes<L>> {
-        (0..n)
-            .map(|i| Lanes(std::array::from_fn(|lane| vectors[lane][i])))
-            .collect()
-    };
-    let (e, rate) = (gather(&states), gather(&rates));
-    let compare = |name: &str, lanes: &[Lanes<L>], plain: &dyn Fn(usize) -> Vec<f64>| {
-        for lane in 0..L {
-            let lane_values: Vec<f64> = lanes.iter().map(|x| x.0[lane]).collect();
-            assert_eq!(lane_values, plain(lane), "{name} in lane {lane} of {L}");
-        }
-    };
-    compare("energy", &[element.energy(&e)], &|i| {
-        vec![element.energy(&states[i])]
-    });
-    compare("force", &force(element, &e), &|i| {
-        force(element, &states[i])
-    });
-    compare("stiffness", &stiffness(element, &e), &|i| {
-        stiffness(element, &states[i])
-    });
-    if element.is_damped() {
-        compare("damping", &damping_force(element, &e, &rate), &|i| {
-            damping_force(element, &states[i], &rates[i])
-        });
-        compare(
-            "damping tangent",
-            &damping_tangent(element, &e, &rate, 0.7, 1.3),
-            &|i| damping_tangent(element, &states[i], &rates[i], 0.7, 1.3),
-        );
-    }
 }
 
 /// The damping force (of a damped element) is zero in rigid motion, takes energy out of any other, and

@@ -9,8 +9,14 @@
 //! `ancf::element_checks!(...)` in its tests (see CONTRIBUTING.md).
 
 mod beam2_belt;
+mod beam2_cubic;
+mod beam2_linear;
+mod hermite;
+mod plane_section;
 
 pub use beam2_belt::BeltBeam2;
+pub use beam2_cubic::{CubicBeam2, FoldedReference};
+pub use beam2_linear::LinearBeam2;
 
 use crate::scalar::Scalar;
 

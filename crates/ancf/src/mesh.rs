@@ -257,9 +257,9 @@ impl<E: Element> Mesh<E> {
             for row in 0..vectors {
                 for column in 0..vectors {
                     for axis in 0..E::DIMENSION {
-                        local[(row * E::DIMENSION + axis) * E::DOF
-                            + column * E::DIMENSION
-                            + axis] = scalar[row * vectors + column];
+                        local
+                            [(row * E::DIMENSION + axis) * E::DOF + column * E::DIMENSION + axis] =
+                            scalar[row * vectors + column];
                     }
                 }
             }

@@ -4,6 +4,10 @@
 //! branching (see [`Scalar::select_positive`]), so one text serves plain numbers, SIMD lanes and
 //! automatic differentiation.
 
+mod wide;
+
+pub use wide::{EightLanes, LaneKernel, Present, Wide, dispatch};
+
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number that kernels compute with.
@@ -61,8 +65,8 @@ impl Scalar for f64 {
     }
 }
 
-/// `L` numbers side by side; every operation acts on each. The compiler turns them into SIMD
-/// registers of whatever width the running processor has.
+/// `L` numbers side by side; every operation acts on each. The compiler may turn short kernels into SIMD
+/// instructions; [`Wide`] numbers are registers in any.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct Lanes<const L: usize>(pub [f64; L]);
@@ -130,6 +134,32 @@ impl<const L: usize> Scalar for Lanes<L> {
         }))
     }
 }
+
+/// Writes a short loop out, `unroll!(for i in 0..3 { ... })`.
+///
+/// Left as a loop over [`Lanes`], the compiler may vectorise along `i` with gathers instead of across
+/// the lanes, several times slower.
+macro_rules! unroll {
+    (for $i:ident in 0..2 $body:block) => {
+        unroll!(@ $i $body 0 1)
+    };
+    (for $i:ident in 0..3 $body:block) => {
+        unroll!(@ $i $body 0 1 2)
+    };
+    (for $i:ident in 0..4 $body:block) => {
+        unroll!(@ $i $body 0 1 2 3)
+    };
+    (for $i:ident in 0..6 $body:block) => {
+        unroll!(@ $i $body 0 1 2 3 4 5)
+    };
+    (@ $i:ident $body:block $($n:literal)*) => {{
+        $({
+            let $i: usize = $n;
+            $body
+        })*
+    }};
+}
+pub(crate) use unroll;
 
 #[cfg(feature = "checks")]
 macro_rules! dual_scalar {

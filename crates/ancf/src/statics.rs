@@ -44,7 +44,9 @@ pub struct Settled {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum StaticsError {
     /// The iteration did not come to rest.
-    #[error("no equilibrium after {iterations} iterations: last correction {correction:.1e} m at coordinate {coordinate}")]
+    #[error(
+        "no equilibrium after {iterations} iterations: last correction {correction:.1e} m at coordinate {coordinate}"
+    )]
     NotConverged {
         /// Iterations made.
         iterations: usize,
@@ -85,11 +87,7 @@ pub fn settle(
     let mut last = (f64::INFINITY, 0);
 
     for iteration in 1..=options.max_iterations {
-        let state = State {
-            time,
-            q,
-            v: &rest,
-        };
+        let state = State { time, q, v: &rest };
         matrix.clear();
         matrix.add_scaled(shift, system.mass());
         system.add_tangent(state, 1.0, 0.0, &mut matrix);

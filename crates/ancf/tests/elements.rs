@@ -4,7 +4,7 @@
 //! order that the tolerances see; the property tests vary material, section and length.
 
 use ancf::checks::deformed_state;
-use ancf::element::{BeltBeam2, Element};
+use ancf::element::{BeltBeam2, CubicBeam2, Element, LineElement, LinearBeam2};
 use ancf::material::Isotropic;
 use ancf::quadrature::Rule;
 use ancf::section::PlanarSection;
@@ -42,6 +42,58 @@ fn belt(axial_factor: f64, bending_factor: f64, damping_time: f64) -> BeltBeam2 
 ancf::line_element_checks!(belt_beam: belt(1.0, 1.0, 0.0), mass: MASS);
 ancf::line_element_checks!(belt_beam_with_factors: belt(0.7, 0.4, 0.0), mass: MASS);
 ancf::line_element_checks!(damped_belt_beam: belt(0.7, 0.4, 3e-4), mass: MASS);
+
+ancf::line_element_checks!(linear_beam: LinearBeam2::new(LENGTH, &section(), &MATERIAL), mass: MASS);
+ancf::line_element_checks!(cubic_beam: CubicBeam2::new(LENGTH, &section(), &MATERIAL), mass: MASS);
+ancf::line_element_checks!(curved_cubic_beam: arch(), mass: arch_mass());
+
+/// An eighth of a circle of twice the height as radius, `|r_x| = 1`.
+fn arch_coordinates() -> [f64; 12] {
+    let radius = 2.0 * HEIGHT;
+    let (sine, cosine) = (LENGTH / (2.0 * radius)).sin_cos();
+    [
+        -radius * sine,
+        radius * cosine,
+        cosine,
+        sine,
+        -sine,
+        cosine,
+        radius * sine,
+        radius * cosine,
+        cosine,
+        -sine,
+        sine,
+        cosine,
+    ]
+}
+
+fn arch() -> CubicBeam2 {
+    CubicBeam2::curved(&arch_coordinates(), LENGTH, &section(), &MATERIAL).unwrap()
+}
+
+/// rho times the area that the corners and the Hermite edges enclose: a doubly symmetric section has no
+/// first moment, so it is A ∫ R_c,x x d dx, by Simpson's rule exact to degree 3 on halves.
+fn arch_mass() -> f64 {
+    let e = arch_coordinates();
+    let cross = |xi: f64| {
+        let slope = [
+            6.0 * (xi * xi - xi) / LENGTH,
+            1.0 - 4.0 * xi + 3.0 * xi * xi,
+            6.0 * (xi - xi * xi) / LENGTH,
+            3.0 * xi * xi - 2.0 * xi,
+        ];
+        let c = |axis: usize| {
+            slope[0] * e[axis]
+                + slope[1] * e[2 + axis]
+                + slope[2] * e[6 + axis]
+                + slope[3] * e[8 + axis]
+        };
+        let d = |axis: usize| (1.0 - xi) * e[4 + axis] + xi * e[10 + axis];
+        c(0) * d(1) - c(1) * d(0)
+    };
+    let mean = (cross(0.0) + 4.0 * cross(0.5) + cross(1.0)) / 6.0;
+    MATERIAL.density * WIDTH * HEIGHT * LENGTH * mean
+}
 
 /// Kerkkänen (2006) 3.8-3.19 as printed: vectors, their derivatives by dual numbers, and the section
 /// by quadrature. Even powers of y alone carry energy; the constant term of exx is the one with alpha1.
@@ -111,6 +163,77 @@ fn belt_beam_energy_is_the_integral_of_its_strains() {
     }
 }
 
+/// The closed section integrals of the straight cubic beam against the curved one's three points per
+/// section, which knows the gradient D alone; a mesh drawn at an angle is the same element.
+#[test]
+fn curved_cubic_beam_contains_the_straight_one() {
+    let straight = CubicBeam2::new(LENGTH, &section(), &MATERIAL);
+    for angle in [0.0f64, 30.0, 90.0] {
+        let (sine, cosine) = angle.to_radians().sin_cos();
+        let mut drawn = [0.0; 12];
+        straight.reference(&mut drawn);
+        for vector in drawn.chunks_mut(2) {
+            let [x, y] = [vector[0], vector[1]];
+            vector[0] = cosine * x - sine * y;
+            vector[1] = sine * x + cosine * y;
+        }
+        let curved = CubicBeam2::curved(&drawn, LENGTH, &section(), &MATERIAL).unwrap();
+        for seed in 0..6 {
+            let e = deformed_state(&straight, seed);
+            let (a, b) = (straight.energy(&e), curved.energy(&e));
+            assert!((a - b).abs() < 1e-13 * a, "{a} {b}");
+            let (a, b) = (straight.axial_force(&e, 0.3), curved.axial_force(&e, 0.3));
+            assert!((a - b).abs() < 1e-12 * a.abs(), "{a} {b}");
+        }
+    }
+}
+
+/// Material turned inside out is refused, and the message says where.
+#[test]
+fn a_folded_reference_is_refused() {
+    let mut folded = arch_coordinates();
+    folded[4] = -folded[4];
+    folded[5] = -folded[5];
+    let error = CubicBeam2::curved(&folded, LENGTH, &section(), &MATERIAL).unwrap_err();
+    assert!(error.jacobian <= 0.0 && error.to_string().contains("folded at xi = 0."));
+}
+
+/// Kerkkänen (2006) 2.10-2.18 as printed: positions differentiated by dual numbers, the section by
+/// three points (the strain's square is of degree 4 in y), one point along x.
+#[test]
+fn linear_beam_energy_is_the_integral_of_its_strains() {
+    let element = LinearBeam2::new(LENGTH, &section(), &MATERIAL);
+    let across = Rule::gauss(3.try_into().unwrap());
+    let shear = 5.0 / 6.0 * MATERIAL.shear_modulus();
+    for seed in 0..6 {
+        let e = deformed_state(&element, seed);
+        let position = |x: Dual64, y: Dual64| -> [Dual64; 2] {
+            let xi = x / LENGTH;
+            let left = -(xi - 1.0);
+            std::array::from_fn(|axis| {
+                left * e[axis] + y * left * e[2 + axis] + xi * e[4 + axis] + y * xi * e[6 + axis]
+            })
+        };
+        let mut expected = 0.0;
+        for (eta, weight) in across.points.iter().zip(&across.weights) {
+            let (x, y) = (0.5 * LENGTH, (eta - 0.5) * HEIGHT);
+            let by_x = position(Dual64::new(x, 1.0), Dual64::new(y, 0.0)).map(|r| r.eps);
+            let by_y = position(Dual64::new(x, 0.0), Dual64::new(y, 1.0)).map(|r| r.eps);
+            let exx = 0.5 * (by_x[0] * by_x[0] + by_x[1] * by_x[1] - 1.0);
+            let eyy = 0.5 * (by_y[0] * by_y[0] + by_y[1] * by_y[1] - 1.0);
+            let exy = 0.5 * (by_x[0] * by_y[0] + by_x[1] * by_y[1]);
+            let density =
+                0.5 * MATERIAL.youngs_modulus * (exx * exx + eyy * eyy) + 2.0 * shear * exy * exy;
+            expected += density * weight * LENGTH * WIDTH * HEIGHT;
+        }
+        let energy = element.energy(&e);
+        assert!(
+            (energy - expected).abs() < 1e-13 * expected,
+            "{energy} {expected}"
+        );
+    }
+}
+
 /// Any plausible material, section and length: heights from a tenth of the length to the length.
 fn any_beam() -> impl Strategy<Value = (Isotropic, PlanarSection, f64)> {
     let section = (0usize..3, 0.1..1.0f64, 0.1..10.0f64);
@@ -153,5 +276,12 @@ proptest! {
             length, &section, &material, axial_factor, bending_factor, damping_time,
         );
         ancf::checks::all(&element, material.density * section.area * length);
+    }
+
+    #[test]
+    fn any_linear_and_cubic_beam_passes((material, section, length) in any_beam()) {
+        let mass = material.density * section.area * length;
+        ancf::checks::all(&LinearBeam2::new(length, &section, &material), mass);
+        ancf::checks::all(&CubicBeam2::new(length, &section, &material), mass);
     }
 }

@@ -146,8 +146,7 @@ impl<S: Scalar> PointContact<S> {
     /// Power per length that friction takes [W/m].
     #[inline(always)]
     fn friction_loss(&self, radius: f64, speed: f64) -> S {
-        -(self.friction_force
-            * (self.tangential_velocity - (-self.penetration + radius) * speed))
+        -(self.friction_force * (self.tangential_velocity - (-self.penetration + radius) * speed))
     }
 
     /// `-(gq d/dr + gv d/dv)` of force and torque, `-gv d/d speed` of both.
@@ -173,9 +172,8 @@ impl<S: Scalar> PointContact<S> {
         let nt = fn_t - ft * turn;
         let tn = ft_n;
         let tt = ft_t + fn_ * turn;
-        let matrix = |i: usize, j: usize| {
-            -(n[i] * (nn * n[j] + nt * t[j]) + t[i] * (tn * n[j] + tt * t[j]))
-        };
+        let matrix =
+            |i: usize, j: usize| -(n[i] * (nn * n[j] + nt * t[j]) + t[i] * (tn * n[j] + tt * t[j]));
         let lever = -self.penetration + radius;
         // torque = -(R - d) ft
         let torque_n = ft * d_n - lever * ft_n;
@@ -370,14 +368,8 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
                             v[axis] += shape[slot] * state.v[at[slot] + axis];
                         }
                     }
-                    let contact = PointContact::new(
-                        &self.penalty,
-                        &self.friction,
-                        pulley,
-                        speed,
-                        r,
-                        v,
-                    );
+                    let contact =
+                        PointContact::new(&self.penalty, &self.friction, pulley, speed, r, v);
                     work(Batch {
                         element,
                         pulley: p,
@@ -588,8 +580,9 @@ impl<E: LineElement, F: FrictionLaw> ForceLaw for BeltContact<E, F> {
                     let vectors = E::CENTRE_VECTORS;
                     for lane in 0..LANES {
                         let weight = batch.weight.0[lane];
-                        let g: [[f64; 2]; 2] =
-                            std::array::from_fn(|i| std::array::from_fn(|j| tangent.force[i][j].0[lane]));
+                        let g: [[f64; 2]; 2] = std::array::from_fn(|i| {
+                            std::array::from_fn(|j| tangent.force[i][j].0[lane])
+                        });
                         for (a, row) in vectors.iter().enumerate() {
                             let left = weight * batch.shape[a].0[lane];
                             for (b, column) in vectors.iter().enumerate() {

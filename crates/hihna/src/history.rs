@@ -138,7 +138,9 @@ impl History {
         let (sum, count) = self
             .rows()
             .filter(|row| row[0] >= from && row[0] <= to)
-            .fold((0.0, 0_usize), |(sum, n), row| (sum + row[a] * row[b], n + 1));
+            .fold((0.0, 0_usize), |(sum, n), row| {
+                (sum + row[a] * row[b], n + 1)
+            });
         (count > 0).then(|| sum / count as f64)
     }
 

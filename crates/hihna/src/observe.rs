@@ -90,7 +90,10 @@ impl Powers {
 
 /// One row of the belt's profile; fields as in `profile.csv`, SI units.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-#[expect(missing_docs, reason = "columns of profile.csv, described in the user guide")]
+#[expect(
+    missing_docs,
+    reason = "columns of profile.csv, described in the user guide"
+)]
 pub struct ProfileRow {
     pub time: f64,
     pub material_coordinate: f64,
@@ -275,8 +278,7 @@ impl Observer {
             let element = &mesh.elements()[point.element];
             let slope = element.slope(&e, point.xi);
             let stretch = slope[0].hypot(slope[1]);
-            let along =
-                (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch;
+            let along = (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch;
             sum.tension += point.weight * element.axial_force(&e, point.xi);
             sum.strain += point.weight * (stretch - 1.0);
             sum.speed += point.weight * along;
@@ -309,8 +311,7 @@ impl Observer {
                 let stretch = slope[0].hypot(slope[1]);
                 let mut row = ProfileRow {
                     time: motion.time,
-                    material_coordinate: element_start[point.element]
-                        + point.xi * element.length(),
+                    material_coordinate: element_start[point.element] + point.xi * element.length(),
                     x: point.position[0],
                     y: point.position[1],
                     z: 0.0,

@@ -72,8 +72,10 @@ pub fn write(
     })?;
     text.push('\n');
     fs::write(place("summary.json"), text).map_err(io_error)?;
-    write_history(&place("history.csv"), &outcome.history).map_err(|e| encode("history.csv", e, dir))?;
-    write_profile(&place("profile.csv"), &outcome.profile).map_err(|e| encode("profile.csv", e, dir))?;
+    write_history(&place("history.csv"), &outcome.history)
+        .map_err(|e| encode("history.csv", e, dir))?;
+    write_profile(&place("profile.csv"), &outcome.profile)
+        .map_err(|e| encode("profile.csv", e, dir))?;
 
     if dir.exists() {
         // Keep the old folder until the new one stands in its place.

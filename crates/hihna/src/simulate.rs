@@ -218,7 +218,13 @@ fn run<E: BeltElementType, F: FrictionLaw>(
         } = &cause;
         RunError::Step {
             time: *time,
-            place: place(drive, &assembly.layout, &motion, failure.coordinate, E::NODE_DOF),
+            place: place(
+                drive,
+                &assembly.layout,
+                &motion,
+                failure.coordinate,
+                E::NODE_DOF,
+            ),
             cause,
         }
     })?;
@@ -656,8 +662,13 @@ fn output_times(end: f64, interval: f64) -> Vec<f64> {
         reason = "a positive count of rows"
     )]
     let count = (end / interval * (1.0 + 1.0e-12)).floor() as usize;
-    let mut times: Vec<f64> = (0..=count).map(|i| (i as f64 * interval).min(end)).collect();
-    if times.last().is_some_and(|last| end - last > 1.0e-9 * interval) {
+    let mut times: Vec<f64> = (0..=count)
+        .map(|i| (i as f64 * interval).min(end))
+        .collect();
+    if times
+        .last()
+        .is_some_and(|last| end - last > 1.0e-9 * interval)
+    {
         times.push(end);
     }
     times

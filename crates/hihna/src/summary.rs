@@ -255,7 +255,11 @@ fn report(drive: &Drive, history: &History, from: f64, to: f64) -> Report {
     }
     let lost = ["friction_loss", "contact_loss", "damping_loss"]
         .iter()
-        .map(|name| history.mean_rate(&format!("energy.{name}"), from, to).unwrap_or(0.0))
+        .map(|name| {
+            history
+                .mean_rate(&format!("energy.{name}"), from, to)
+                .unwrap_or(0.0)
+        })
         .sum();
     Report {
         time: 0.5 * (from + to),

@@ -48,5 +48,16 @@ pub fn centre_line_is_consistent<E: LineElement>(element: &E) {
         assert!(at_rest.abs() < 1e-13, "axial force {at_rest:e} at rest");
         let force = element.axial_force(&stretched, xi);
         assert!(force > 0.0, "a stretched beam does not pull");
+        let jacobian = element.jacobian(&reference(element), xi);
+        assert!(
+            (jacobian - 1.0).abs() < 1e-14,
+            "det J at rest is {jacobian}"
+        );
+        for (vector, weight) in line(xi).into_iter().enumerate() {
+            assert!(
+                weight == 0.0 || E::CENTRE_VECTORS.contains(&vector),
+                "the centre line reads vector {vector}"
+            );
+        }
     }
 }

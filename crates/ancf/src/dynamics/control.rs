@@ -77,14 +77,10 @@ impl Window<'_> {
         let start_slope = h * (s - 2.0 * s2 + s3);
         let end_slope = h * (s3 - s2);
         for i in 0..from.q.len() {
-            state.q[i] = start * from.q[i]
-                + end * to.q[i]
-                + start_slope * from.v[i]
-                + end_slope * to.v[i];
-            state.v[i] = start * from.v[i]
-                + end * to.v[i]
-                + start_slope * from.a[i]
-                + end_slope * to.a[i];
+            state.q[i] =
+                start * from.q[i] + end * to.q[i] + start_slope * from.v[i] + end_slope * to.v[i];
+            state.v[i] =
+                start * from.v[i] + end * to.v[i] + start_slope * from.a[i] + end_slope * to.a[i];
             state.a[i] = (1.0 - s) * from.a[i] + s * to.a[i];
         }
         state.time = time;

@@ -57,9 +57,8 @@ impl Scheme for GeneralizedAlpha {
         } = *self;
         let new = (1.0 - alpha_f) / (1.0 - alpha_m);
         // algorithmic acceleration without its part from the unknown
-        let base = |i: usize| {
-            (alpha_f * from.a[i] - alpha_m * from.algorithmic[i]) / (1.0 - alpha_m)
-        };
+        let base =
+            |i: usize| (alpha_f * from.a[i] - alpha_m * from.algorithmic[i]) / (1.0 - alpha_m);
         for i in 0..from.q.len() {
             let (old, known) = (from.algorithmic[i], base(i));
             to.v[i] = from.v[i] + step * ((1.0 - gamma) * old + gamma * known);

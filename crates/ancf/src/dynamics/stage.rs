@@ -29,7 +29,9 @@ const MIN_DAMPING: f64 = 1.0 / 1024.0;
 
 /// A stage whose equations could not be solved.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("the step to t = {time} s does not converge: correction {residual:.1e} m/s at coordinate {coordinate}")]
+#[error(
+    "the step to t = {time} s does not converge: correction {residual:.1e} m/s at coordinate {coordinate}"
+)]
 pub struct NotConverged {
     /// Time of the stage [s].
     pub time: f64,
