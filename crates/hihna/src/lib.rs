@@ -1,4 +1,6 @@
 //! Belt drives: what the user states, made into a mechanical system, and what the user wants to know.
 
 pub mod drive;
+pub mod input;
 pub mod profile;
+pub mod units;
