@@ -78,6 +78,10 @@ pub trait Element: Clone + PartialEq + std::fmt::Debug + Send + Sync {
 
 /// An element whose material points lie on a line `0 <= x <= length`: beams.
 pub trait LineElement: Element {
+    /// The vectors that the centre line reads: two for a line `(r1, r2)`, four for a cubic
+    /// `(r1, r1_x, r2, r2_x)`, in this order.
+    const CENTRE_VECTORS: &'static [usize];
+
     /// Undeformed length [m].
     fn length(&self) -> f64;
 
@@ -87,6 +91,23 @@ pub trait LineElement: Element {
 
     /// Derivatives of [`LineElement::centre_line`] by x [1/m].
     fn centre_line_slope(&self, xi: f64, weights: &mut [f64]);
+
+    /// The slope `dr/dx` of the centre line at `xi` in the configuration `e` (length `DIMENSION`,
+    /// padded with zeros).
+    fn slope(&self, e: &[f64], xi: f64) -> [f64; 3] {
+        let mut weights = [0.0; 8];
+        self.centre_line_slope(xi, &mut weights);
+        let mut slope = [0.0; 3];
+        for vector in Self::CENTRE_VECTORS {
+            for axis in 0..Self::DIMENSION {
+                slope[axis] += weights[*vector] * e[Self::DIMENSION * vector + axis];
+            }
+        }
+        slope
+    }
+
+    /// Area (2D) or volume (3D) ratio `det dr/d(x, y, ...)` on the centre line at `xi`.
+    fn jacobian(&self, e: &[f64], xi: f64) -> f64;
 
     /// Axial force [N] at `xi` in the configuration `e`.
     fn axial_force(&self, e: &[f64], xi: f64) -> f64;

@@ -3,8 +3,15 @@
 //!
 //! SI units throughout. This crate knows nothing of belts.
 
+#[cfg(feature = "checks")]
+pub mod checks;
+pub mod dynamics;
 pub mod element;
+pub mod linear;
 pub mod material;
+pub mod mesh;
 pub mod quadrature;
 pub mod scalar;
 pub mod section;
+pub mod statics;
+pub mod system;

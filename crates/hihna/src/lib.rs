@@ -1,6 +1,15 @@
 //! Belt drives: what the user states, made into a mechanical system, and what the user wants to know.
 
+pub mod assemble;
+pub mod contact;
 pub mod drive;
+pub mod friction;
+pub mod history;
 pub mod input;
+pub mod layout;
+pub mod observe;
 pub mod profile;
+pub mod record;
+pub mod simulate;
+pub mod summary;
 pub mod units;

@@ -9,7 +9,7 @@
 //! sin(gamma) linear between the nodal values  -t . r_y / |r_y|            (3.12)
 //! U = ∫ alpha1 E A / 8 (c.c - 1)²
 //!     + alpha2 { E I2 / 2 [(c.s')² + (c.c - 1) s'.s' / 2] + E I4 / 8 (s'.s')² }   (3.18)
-//!     + alpha2 ks G / 2 { A (c.s)² + I2 s'.s' }                                   (3.19)
+//!     + alpha2 ks G / 2 { A (c.s)² + I2 (s'.s)² }                                 (3.19)
 //!     + E A / 2 e_yy²  dx,          e_yy linear between the nodal values |r_y| - 1
 //! ```
 //!
@@ -18,8 +18,8 @@
 //! `p = sin(gamma)`, `q = p'` and `k = kappa + q`. Then `s' = -k t - p kappa n`, so
 //!
 //! ```text
-//! c.s = -p f      c.s' = -f k      s'.s' = k² + p² kappa² =: b
-//! W = EA/8 (a - 1)² + EI2/2 [a k² + (a - 1) b / 2] + EI4/8 b² + ksG/2 [A p² a + I2 b]
+//! c.s = -p f      c.s' = -f k      s'.s' = k² + p² kappa² =: b      s'.s = p q
+//! W = EA/8 (a - 1)² + EI2/2 [a k² + (a - 1) b / 2] + EI4/8 b² + ksG/2 [A p² a + I2 p² q²]
 //! ```
 //!
 //! (alphas absorbed). Derivatives go through `(a, kappa, p, q)` to `(c, c', p, q)`, which are linear
@@ -178,6 +178,7 @@ impl BeltBeam2 {
             per_a,
             kappa,
             p,
+            q,
             bend: kappa + q,
         }
     }
@@ -201,6 +202,7 @@ struct Kinematics<S> {
     per_a: S,
     kappa: S,
     p: S,
+    q: S,
     bend: S,
 }
 
@@ -321,7 +323,7 @@ impl Element for BeltBeam2 {
                 + (at.a * at.bend * at.bend + stretch * b * 0.5) * (self.bending_stiffness / 2.0)
                 + b * b * (self.fourth_stiffness / 8.0)
                 + at.p * at.p * at.a * (self.shear_stiffness / 2.0)
-                + b * (self.shear_gradient_stiffness / 2.0);
+                + at.p * at.p * at.q * at.q * (self.shear_gradient_stiffness / 2.0);
             energy += density * point.weight;
         }
         energy
@@ -340,8 +342,7 @@ impl Element for BeltBeam2 {
             let twist = at.p * at.kappa;
             let b = at.bend * at.bend + twist * twist;
             let by_b = (stretch * (self.bending_stiffness / 4.0)
-                + b * (self.fourth_stiffness / 4.0)
-                + self.shear_gradient_stiffness / 2.0)
+                + b * (self.fourth_stiffness / 4.0))
                 * point.weight;
             let by_a = (stretch * (self.axial_stiffness / 4.0)
                 + (at.bend * at.bend + b * 0.5) * (self.bending_stiffness / 2.0)
@@ -350,8 +351,10 @@ impl Element for BeltBeam2 {
             let by_bend =
                 at.a * at.bend * (self.bending_stiffness * point.weight) + by_b * at.bend * 2.0;
             let by_kappa = by_bend + by_b * at.p * twist * 2.0;
-            let by_p =
-                by_b * twist * at.kappa * 2.0 + at.a * at.p * (self.shear_stiffness * point.weight);
+            let shear_gradient = at.p * at.q * (self.shear_gradient_stiffness * point.weight);
+            let by_p = by_b * twist * at.kappa * 2.0
+                + at.a * at.p * (self.shear_stiffness * point.weight)
+                + shear_gradient * at.q;
             let (kappa_c, kappa_k) = at.kappa_gradient();
             for axis in 0..2 {
                 let by_c = by_a * at.c[axis] * 2.0 + by_kappa * kappa_c[axis];
@@ -360,7 +363,7 @@ impl Element for BeltBeam2 {
                     out[2 * vector + axis] -= by_c * point.slope[i] + by_k * point.curve[i];
                 }
             }
-            let by_q = by_bend * (1.0 / self.length);
+            let by_q = (by_bend + shear_gradient * at.p) * (1.0 / self.length);
             by_shear[0] += by_p * (1.0 - point.xi) - by_q;
             by_shear[1] += by_p * point.xi + by_q;
         }
@@ -658,7 +661,7 @@ impl BeltBeam2 {
             self.shear_stiffness * weight,
             self.shear_gradient_stiffness * weight,
         );
-        let (a, kappa, p, bend) = (at.a, at.kappa, at.p, at.bend);
+        let (a, kappa, p, q, bend) = (at.a, at.kappa, at.p, at.q, at.bend);
         let stretch = a - 1.0;
         let twist = p * kappa;
         let b = bend * bend + twist * twist;
@@ -666,7 +669,7 @@ impl BeltBeam2 {
         let b_p = twist * kappa * 2.0;
         let b_q = bend * 2.0;
 
-        let by_b = stretch * (ei2 / 4.0) + b * (ei4 / 4.0) + shear_gradient / 2.0;
+        let by_b = stretch * (ei2 / 4.0) + b * (ei4 / 4.0);
         let by_a = stretch * (self.axial_stiffness * weight / 4.0)
             + (bend * bend + b * 0.5) * (ei2 / 2.0)
             + p * p * (shear / 2.0);
@@ -701,8 +704,8 @@ impl BeltBeam2 {
             }
         }
         Hessian {
-            by_p: by_b * b_p + a * p * shear,
-            by_q: by_bend + by_b * b_q,
+            by_p: by_b * b_p + a * p * shear + p * q * q * shear_gradient,
+            by_q: by_bend + by_b * b_q + p * p * q * shear_gradient,
             cc,
             ck,
             kk,
@@ -710,14 +713,16 @@ impl BeltBeam2 {
             cq: std::array::from_fn(|i| a_q * at.c[i] * 2.0 + kappa_q * kappa_c[i]),
             kp: std::array::from_fn(|i| kappa_p * kappa_k[i]),
             kq: std::array::from_fn(|i| kappa_q * kappa_k[i]),
-            pp: b_p * b_p * bb + by_b * kappa * kappa * 2.0 + a * shear,
-            pq: b_p * b_q * bb,
-            qq: a * ei2 + b_q * b_q * bb + by_b * 2.0,
+            pp: b_p * b_p * bb + by_b * kappa * kappa * 2.0 + a * shear + q * q * shear_gradient,
+            pq: b_p * b_q * bb + p * q * (2.0 * shear_gradient),
+            qq: a * ei2 + b_q * b_q * bb + by_b * 2.0 + p * p * shear_gradient,
         }
     }
 }
 
 impl LineElement for BeltBeam2 {
+    const CENTRE_VECTORS: &'static [usize] = &HERMITE_VECTORS;
+
     fn length(&self) -> f64 {
         self.length
     }
@@ -730,14 +735,15 @@ impl LineElement for BeltBeam2 {
         spread(hermite_slope(xi, self.length), weights);
     }
 
+    fn jacobian(&self, e: &[f64], xi: f64) -> f64 {
+        let c = self.slope(e, xi);
+        let thickness = |axis: usize| (1.0 - xi) * e[4 + axis] + xi * e[10 + axis];
+        c[0] * thickness(1) - c[1] * thickness(0)
+    }
+
     /// The true axial force `EA (f² - 1) / 2 f` of the stretch `f` of the centre line.
     fn axial_force(&self, e: &[f64], xi: f64) -> f64 {
-        let slope = hermite_slope(xi, self.length);
-        let mut c = [0.0; 2];
-        for (weight, vector) in slope.iter().zip(HERMITE_VECTORS) {
-            c[0] += weight * e[2 * vector];
-            c[1] += weight * e[2 * vector + 1];
-        }
+        let c = self.slope(e, xi);
         let square = c[0] * c[0] + c[1] * c[1];
         self.axial_stiffness * 0.5 * (square - 1.0) * square.sqrt()
     }

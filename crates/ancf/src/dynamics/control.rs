@@ -1,0 +1,336 @@
+//! Step control: which step, which scheme, and what to do when a step fails.
+//!
+//! Time is cut at the kinks of the prescribed profiles. Within a segment all steps are `h0 / 2^k` on
+//! a dyadic grid, so that a stored factor stays usable and kinks are hit exactly. A step whose
+//! equations are not solved is halved; where halving does not help, TR-BDF2 takes over for a while.
+//! An unconverged step is never accepted.
+
+use std::ops::ControlFlow;
+
+use thiserror::Error;
+
+use super::stage::{NotConverged, Stage};
+use super::{GeneralizedAlpha, Motion, RungeKutta4, Scheme, Statistics, TrBdf2};
+use crate::system::Mechanics;
+
+/// Damping at infinite frequency: more (0.6) costs energy balance, less (0.9) Newton iterations.
+const SPECTRAL_RADIUS: f64 = 0.8;
+/// Finest step: `h0 / 2^LEVELS`.
+const LEVELS: u32 = 24;
+/// Halvings before generalized-alpha hands over to TR-BDF2.
+const HALVINGS_BEFORE_FALLBACK: u32 = 3;
+/// Halvings of a failing step before the run is given up.
+const MAX_HALVINGS: u32 = 10;
+/// Steps that the fall-back makes before generalized-alpha is tried again.
+const FALLBACK_STEPS: usize = 32;
+/// Good steps before the step is doubled.
+const PATIENCE: usize = 3;
+
+/// Time integrators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Generalized-alpha, with TR-BDF2 where its steps keep failing.
+    #[default]
+    Auto,
+    /// Generalized-alpha alone.
+    GeneralizedAlpha,
+    /// TR-BDF2 alone.
+    TrBdf2,
+    /// The classical explicit Runge-Kutta scheme.
+    RungeKutta,
+}
+
+/// How to integrate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Control {
+    /// The integrator.
+    pub method: Method,
+    /// Largest step [s]; the only one if `error_tolerance` is `None`.
+    pub step: f64,
+    /// Accepted difference [m/s] between predicted and found velocities; `None` for a fixed step.
+    pub error_tolerance: Option<f64>,
+    /// Error of the velocities [m/s] at which Newton stops.
+    pub newton_tolerance: f64,
+    /// Times that steps must hit [s].
+    pub kinks: Vec<f64>,
+}
+
+/// Two accepted states, one step apart.
+#[derive(Clone, Copy, Debug)]
+pub struct Window<'a> {
+    /// The state before the step.
+    pub from: &'a Motion,
+    /// The state after it.
+    pub to: &'a Motion,
+}
+
+impl Window<'_> {
+    /// Writes the state at `time` within the step: cubic Hermite in `q` (from `v`) and in `v` (from
+    /// `a`), linear in `a`.
+    pub fn interpolate(&self, time: f64, state: &mut Motion) {
+        let (from, to) = (self.from, self.to);
+        let h = to.time - from.time;
+        let s = (time - from.time) / h;
+        let (s2, s3) = (s * s, s * s * s);
+        let start = 1.0 - 3.0 * s2 + 2.0 * s3;
+        let end = 1.0 - start;
+        let start_slope = h * (s - 2.0 * s2 + s3);
+        let end_slope = h * (s3 - s2);
+        for i in 0..from.q.len() {
+            state.q[i] = start * from.q[i]
+                + end * to.q[i]
+                + start_slope * from.v[i]
+                + end_slope * to.v[i];
+            state.v[i] = start * from.v[i]
+                + end * to.v[i]
+                + start_slope * from.a[i]
+                + end_slope * to.a[i];
+            state.a[i] = (1.0 - s) * from.a[i] + s * to.a[i];
+        }
+        state.time = time;
+    }
+}
+
+/// A run that could not go on.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum IntegrationError {
+    /// The equations of a step could not be solved at any step length tried.
+    #[error("no step from t = {time} s converges, down to {step:.1e} s: {cause}")]
+    StepFailed {
+        /// Time of the last accepted state [s].
+        time: f64,
+        /// Shortest step tried [s].
+        step: f64,
+        /// What happened in the last try.
+        cause: NotConverged,
+    },
+}
+
+/// Integrates `motion` to time `end`, calling `observe` after every accepted step; stops early when
+/// it breaks. `motion` starts with time, coordinates and velocities and ends with the last state.
+pub fn integrate<S: Mechanics>(
+    system: &mut S,
+    motion: &mut Motion,
+    end: f64,
+    control: &Control,
+    mut observe: impl FnMut(&mut S, Window<'_>) -> ControlFlow<()>,
+) -> Result<Statistics, IntegrationError> {
+    let size = motion.q.len();
+    let mut stage = Stage::new(system, control.newton_tolerance);
+    stage.accelerations(system, motion);
+    motion.algorithmic.copy_from_slice(&motion.a);
+    let mut next = motion.clone();
+    let mut schemes = Schemes::new(control.method, size);
+
+    let mut boundaries: Vec<f64> = control
+        .kinks
+        .iter()
+        .copied()
+        .filter(|kink| *kink > motion.time && *kink < end)
+        .collect();
+    boundaries.push(end);
+    boundaries.sort_by(f64::total_cmp);
+    boundaries.dedup();
+    let mut level = 0;
+    for boundary in boundaries {
+        let mut grid = Grid::new(motion.time, boundary, control.step, level);
+        let mut good = 0;
+        let mut failures = 0;
+        while !grid.is_done() {
+            let step = grid.step();
+            match schemes.step(system, &mut stage, motion, step, &mut next) {
+                Err(cause) => {
+                    stage.statistics.halved_steps += 1;
+                    good = 0;
+                    failures += 1;
+                    if failures > HALVINGS_BEFORE_FALLBACK && schemes.fall_back() {
+                        grid.coarsen_by(failures - 1);
+                        failures = 0;
+                    } else if failures > MAX_HALVINGS || !grid.refine() {
+                        return Err(IntegrationError::StepFailed {
+                            time: motion.time,
+                            step,
+                            cause,
+                        });
+                    }
+                    continue;
+                }
+                Ok(()) => failures = 0,
+            }
+            let mut may_double = true;
+            if let Some(tolerance) = control.error_tolerance {
+                let error = prediction_error(system.scales(), motion, &next) / tolerance;
+                if error > 1.0 && grid.refine() {
+                    stage.statistics.halved_steps += 1;
+                    good = 0;
+                    continue;
+                }
+                may_double = error < 0.4;
+            }
+            grid.advance();
+            next.time = grid.time();
+            stage.statistics.steps += 1;
+            stage.statistics.fallback_steps += usize::from(schemes.accepted());
+            let flow = observe(
+                system,
+                Window {
+                    from: motion,
+                    to: &next,
+                },
+            );
+            std::mem::swap(motion, &mut next);
+            if flow.is_break() {
+                return Ok(stage.statistics);
+            }
+            good = if may_double { good + 1 } else { 0 };
+            if good >= PATIENCE && grid.coarsen() {
+                good = 0;
+            }
+        }
+        motion.time = boundary;
+        level = grid.level;
+    }
+    Ok(stage.statistics)
+}
+
+/// Largest difference [m/s] between the velocities found and those predicted by constant
+/// acceleration, over the coordinates in metres (positions of nodes).
+fn prediction_error(scales: &[f64], from: &Motion, to: &Motion) -> f64 {
+    let h = to.time - from.time;
+    let mut largest: f64 = 0.0;
+    for (i, scale) in scales.iter().enumerate() {
+        if (*scale - 1.0).abs() < f64::EPSILON {
+            largest = largest.max((to.v[i] - from.v[i] - h * from.a[i]).abs());
+        }
+    }
+    largest
+}
+
+/// The scheme in use and its stand-in.
+struct Schemes {
+    main: Box<dyn Scheme>,
+    fallback: Option<TrBdf2>,
+    /// Steps that the fall-back has still to make.
+    remaining: usize,
+}
+
+impl Schemes {
+    fn new(method: Method, size: usize) -> Self {
+        let main: Box<dyn Scheme> = match method {
+            Method::Auto | Method::GeneralizedAlpha => {
+                Box::new(GeneralizedAlpha::new(SPECTRAL_RADIUS))
+            }
+            Method::TrBdf2 => Box::new(TrBdf2::new(size)),
+            Method::RungeKutta => Box::new(RungeKutta4::new(size)),
+        };
+        Self {
+            main,
+            fallback: (method == Method::Auto).then(|| TrBdf2::new(size)),
+            remaining: 0,
+        }
+    }
+
+    fn step(
+        &mut self,
+        system: &mut dyn Mechanics,
+        stage: &mut Stage,
+        from: &Motion,
+        step: f64,
+        to: &mut Motion,
+    ) -> Result<(), NotConverged> {
+        match &mut self.fallback {
+            Some(fallback) if self.remaining > 0 => fallback.step(system, stage, from, step, to),
+            _ => self.main.step(system, stage, from, step, to),
+        }
+    }
+
+    /// Hands over to the fall-back; false if there is none or it is at work already.
+    fn fall_back(&mut self) -> bool {
+        let possible = self.fallback.is_some() && self.remaining == 0;
+        if possible {
+            self.remaining = FALLBACK_STEPS;
+        }
+        possible
+    }
+
+    /// Counts an accepted step; says whether the fall-back made it.
+    fn accepted(&mut self) -> bool {
+        let by_fallback = self.remaining > 0;
+        self.remaining = self.remaining.saturating_sub(1);
+        by_fallback
+    }
+}
+
+/// The dyadic grid of one segment of time.
+struct Grid {
+    start: f64,
+    /// Length of a step at level 0 [s].
+    base: f64,
+    /// Present position and end, in units of `base / 2^LEVELS`.
+    position: u64,
+    end: u64,
+    level: u32,
+}
+
+impl Grid {
+    fn new(start: f64, end: f64, step: f64, level: u32) -> Self {
+        let count = ((end - start) / step * (1.0 - 1.0e-9)).ceil().max(1.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "positive, and far below 2^40 for any run that ends"
+        )]
+        let units = (count as u64) << LEVELS;
+        Self {
+            start,
+            base: (end - start) / count,
+            position: 0,
+            end: units,
+            level,
+        }
+    }
+
+    fn units(&self) -> u64 {
+        1 << (LEVELS - self.level)
+    }
+
+    fn step(&self) -> f64 {
+        self.base / f64::from(1_u32 << self.level)
+    }
+
+    fn time(&self) -> f64 {
+        self.start + self.base * (self.position as f64 / (1_u64 << LEVELS) as f64)
+    }
+
+    fn advance(&mut self) {
+        self.position += self.units();
+    }
+
+    fn is_done(&self) -> bool {
+        self.position >= self.end
+    }
+
+    fn refine(&mut self) -> bool {
+        let possible = self.level < LEVELS;
+        self.level += u32::from(possible);
+        possible
+    }
+
+    /// Doubles the step if the grid allows it here.
+    fn coarsen(&mut self) -> bool {
+        let possible = self.level > 0
+            && self.position.is_multiple_of(2 * self.units())
+            && self.position + 2 * self.units() <= self.end;
+        self.level -= u32::from(possible);
+        possible
+    }
+
+    /// Takes back up to `halvings` halvings.
+    fn coarsen_by(&mut self, halvings: u32) {
+        for _ in 0..halvings {
+            if !self.coarsen() {
+                break;
+            }
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Generalized-alpha (Chung & Hulbert 1993, in the form of Arnold & Brüls 2007).
+//!
+//! The true acceleration `x` satisfies `M x = f` at the end of the step; the algorithmic one `a`
+//! drives Newmark's formulas:
+//!
+//! ```text
+//! (1 - am) a1 + am a0 = (1 - af) x1 + af x0
+//! v1 = v0 + h [(1 - g) a0 + g a1]           q1 = q0 + h v0 + h² [(1/2 - b) a0 + b a1]
+//! am = (2 rho - 1) / (rho + 1)   af = rho / (rho + 1)   g = 1/2 + af - am   b = (1/2 + g)² / 4
+//! ```
+//!
+//! Second order; `rho` is the damping left for infinitely fast modes.
+
+use super::stage::{NotConverged, Stage, StageBase};
+use super::{Motion, Scheme};
+use crate::system::Mechanics;
+
+/// The scheme with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeneralizedAlpha {
+    alpha_m: f64,
+    alpha_f: f64,
+    gamma: f64,
+    beta: f64,
+}
+
+impl GeneralizedAlpha {
+    /// The scheme with spectral radius `rho` in `[0, 1]` at infinite frequency.
+    #[must_use]
+    pub fn new(rho: f64) -> Self {
+        let alpha_m = (2.0 * rho - 1.0) / (rho + 1.0);
+        let alpha_f = rho / (rho + 1.0);
+        let gamma = 0.5 + alpha_f - alpha_m;
+        Self {
+            alpha_m,
+            alpha_f,
+            gamma,
+            beta: 0.25 * (0.5 + gamma).powi(2),
+        }
+    }
+}
+
+impl Scheme for GeneralizedAlpha {
+    fn step(
+        &mut self,
+        system: &mut dyn Mechanics,
+        stage: &mut Stage,
+        from: &Motion,
+        step: f64,
+        to: &mut Motion,
+    ) -> Result<(), NotConverged> {
+        let Self {
+            alpha_m,
+            alpha_f,
+            gamma,
+            beta,
+        } = *self;
+        let new = (1.0 - alpha_f) / (1.0 - alpha_m);
+        // algorithmic acceleration without its part from the unknown
+        let base = |i: usize| {
+            (alpha_f * from.a[i] - alpha_m * from.algorithmic[i]) / (1.0 - alpha_m)
+        };
+        for i in 0..from.q.len() {
+            let (old, known) = (from.algorithmic[i], base(i));
+            to.v[i] = from.v[i] + step * ((1.0 - gamma) * old + gamma * known);
+            to.q[i] =
+                from.q[i] + step * from.v[i] + step * step * ((0.5 - beta) * old + beta * known);
+            to.a[i] = from.a[i];
+        }
+        to.time = from.time + step;
+        stage.solve(
+            system,
+            to,
+            StageBase {
+                position_factor: step * step * beta * new,
+                velocity_factor: step * gamma * new,
+            },
+        )?;
+        for i in 0..from.q.len() {
+            to.algorithmic[i] = base(i) + new * to.a[i];
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,334 @@
+//! The nonlinear solver of implicit stages: a damped simplified Newton method that keeps its factor.
+//!
+//! With the residual `r(x) = M x - f(t, q_base + g_q x, v_base + g_v x)` and
+//! `J = M + g_v C + g_q K`:
+//!
+//! * the correction `b = J^-1 r(x)` uses an old factor as long as it contracts;
+//! * a trial `x - s b` costs one force and one solve, whose result is the next correction;
+//! * natural monotonicity `|b_trial| < (1 - s/4) |b|` accepts it (Deuflhard), otherwise the tangent
+//!   is renewed at `x`, and if it is fresh already, `s` is halved;
+//! * a contraction above [`SLOW`] renews the tangent at the new point.
+//!
+//! An unconverged iterate is never accepted. Norms weigh each coordinate by its scale in metres and
+//! are velocities: `|b| = max_i g_v scale_i |b_i|`.
+
+use thiserror::Error;
+
+use super::{Motion, Statistics};
+use crate::linear::{BorderedMatrix, CyclicSolver, Solver};
+use crate::system::{Mechanics, State};
+
+/// Trials before a stage is given up.
+const MAX_TRIALS: usize = 30;
+/// Contraction above which the tangent is renewed.
+const SLOW: f64 = 0.3;
+/// Relative change of `g_v` beyond which the factor is renewed.
+const STALE: f64 = 0.3;
+/// Smallest damping factor.
+const MIN_DAMPING: f64 = 1.0 / 1024.0;
+
+/// A stage whose equations could not be solved.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("the step to t = {time} s does not converge: correction {residual:.1e} m/s at coordinate {coordinate}")]
+pub struct NotConverged {
+    /// Time of the stage [s].
+    pub time: f64,
+    /// Size of the last correction [m/s].
+    pub residual: f64,
+    /// The coordinate with the largest correction.
+    pub coordinate: usize,
+}
+
+/// How position and velocity depend on the unknown acceleration of a stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageBase {
+    /// `g_q = dQ/dx` [s²].
+    pub position_factor: f64,
+    /// `g_v = dV/dx` [s].
+    pub velocity_factor: f64,
+}
+
+/// Working memory, factor and counters of the stages of one system.
+#[derive(Debug)]
+pub struct Stage {
+    tolerance: f64,
+    matrix: BorderedMatrix,
+    solver: CyclicSolver,
+    mass_solver: CyclicSolver,
+    mass_factored: bool,
+    /// `g_v` of the present factor, zero for none.
+    factored_for: f64,
+    force: Vec<f64>,
+    residual: Vec<f64>,
+    correction: Vec<f64>,
+    trial_residual: Vec<f64>,
+    trial_correction: Vec<f64>,
+    trial: Motion,
+    /// Base positions and velocities.
+    base_q: Vec<f64>,
+    base_v: Vec<f64>,
+    fixed: Vec<bool>,
+    weights: Vec<f64>,
+    /// Counters since the start.
+    pub statistics: Statistics,
+}
+
+impl Stage {
+    /// A solver for stages of `system` that stops when the error of the velocities is below
+    /// `tolerance` [m/s].
+    #[must_use]
+    pub fn new(system: &dyn Mechanics, tolerance: f64) -> Self {
+        let structure = system.structure();
+        let size = structure.size();
+        let mut fixed = vec![false; size];
+        for (index, _) in system.prescribed() {
+            fixed[*index] = true;
+        }
+        Self {
+            tolerance,
+            matrix: BorderedMatrix::new(structure),
+            solver: CyclicSolver::new(structure),
+            mass_solver: CyclicSolver::new(structure),
+            mass_factored: false,
+            factored_for: 0.0,
+            force: vec![0.0; size],
+            residual: vec![0.0; size],
+            correction: vec![0.0; size],
+            trial_residual: vec![0.0; size],
+            trial_correction: vec![0.0; size],
+            trial: Motion::zero(size),
+            base_q: vec![0.0; size],
+            base_v: vec![0.0; size],
+            fixed,
+            weights: system.scales().to_vec(),
+            statistics: Statistics::default(),
+        }
+    }
+
+    /// Puts prescribed coordinates in and writes the accelerations `M^-1 f` of `motion`.
+    pub fn accelerations(&mut self, system: &mut dyn Mechanics, motion: &mut Motion) {
+        if !self.mass_factored {
+            self.matrix.copy_from(system.mass());
+            for (index, _) in system.prescribed() {
+                self.matrix.set_unit_row(*index);
+            }
+            // A free rotor without inertia leaves the mass singular: its acceleration is NaN then,
+            // which the schemes report as a step that does not converge.
+            self.mass_factored = self.mass_solver.factor(&self.matrix).is_ok();
+        }
+        system.prescribe(motion.time, &mut motion.q, &mut motion.v, &mut motion.a);
+        let state = State {
+            time: motion.time,
+            q: &motion.q,
+            v: &motion.v,
+        };
+        system.force(state, &mut self.force);
+        self.statistics.force_evaluations += 1;
+        for (index, _) in system.prescribed() {
+            self.force[*index] = motion.a[*index];
+        }
+        if self.mass_factored {
+            self.mass_solver.solve(&mut self.force);
+            motion.a.copy_from_slice(&self.force);
+        } else {
+            motion.a.fill(f64::NAN);
+        }
+    }
+
+    /// The error for a state at `time` that is no longer finite.
+    pub(super) fn diverged(&self, time: f64) -> NotConverged {
+        NotConverged {
+            time,
+            residual: f64::INFINITY,
+            coordinate: 0,
+        }
+    }
+
+    /// Solves for the accelerations of `motion`, which comes with the base values in `q` and `v` and
+    /// a guess in `a`, and leaves with all three final.
+    pub fn solve(
+        &mut self,
+        system: &mut dyn Mechanics,
+        motion: &mut Motion,
+        base: StageBase,
+    ) -> Result<(), NotConverged> {
+        self.base_q.copy_from_slice(&motion.q);
+        self.base_v.copy_from_slice(&motion.v);
+        let gv = base.velocity_factor;
+        let mut fresh = false;
+        self.place(system, motion, base);
+        self.evaluate(system, motion, Target::Current);
+        if (gv / self.factored_for - 1.0).abs() > STALE || self.factored_for == 0.0 {
+            self.renew(system, motion, base)?;
+            fresh = true;
+        }
+        self.correct(Target::Current);
+        let (mut size, mut largest) = self.norm(&self.correction, gv);
+        let mut damping: f64 = 1.0;
+        for _ in 0..MAX_TRIALS {
+            if size < 0.01 * self.tolerance {
+                self.apply(system, motion, base);
+                return Ok(());
+            }
+            self.trial.time = motion.time;
+            for i in 0..motion.a.len() {
+                self.trial.a[i] = motion.a[i] - damping * self.correction[i];
+            }
+            let mut trial = std::mem::replace(&mut self.trial, Motion::zero(0));
+            self.place(system, &mut trial, base);
+            self.evaluate(system, &trial, Target::Trial);
+            self.correct(Target::Trial);
+            let (trial_size, trial_largest) = self.norm(&self.trial_correction, gv);
+            let contraction = trial_size / size;
+            if contraction < 1.0 - 0.25 * damping {
+                std::mem::swap(motion, &mut trial);
+                self.trial = trial;
+                motion.algorithmic.copy_from_slice(&self.trial.algorithmic);
+                std::mem::swap(&mut self.residual, &mut self.trial_residual);
+                std::mem::swap(&mut self.correction, &mut self.trial_correction);
+                (size, largest) = (trial_size, trial_largest);
+                if damping >= 1.0 && size / (1.0 - contraction) < self.tolerance {
+                    self.apply(system, motion, base);
+                    return Ok(());
+                }
+                fresh = false;
+                if contraction > SLOW && damping >= 1.0 {
+                    self.renew(system, motion, base)?;
+                    fresh = true;
+                    self.correct(Target::Current);
+                    (size, largest) = self.norm(&self.correction, gv);
+                }
+                damping = (2.0 * damping).min(1.0);
+            } else {
+                self.trial = trial;
+                if fresh {
+                    damping *= 0.5;
+                    if damping < MIN_DAMPING {
+                        break;
+                    }
+                } else {
+                    self.renew(system, motion, base)?;
+                    fresh = true;
+                    self.correct(Target::Current);
+                    (size, largest) = self.norm(&self.correction, gv);
+                }
+            }
+        }
+        // The factor belongs to a point that led nowhere.
+        self.factored_for = 0.0;
+        Err(NotConverged {
+            time: motion.time,
+            residual: size,
+            coordinate: largest,
+        })
+    }
+
+    /// Takes the last correction, smaller than the tolerance, along.
+    fn apply(&mut self, system: &dyn Mechanics, motion: &mut Motion, base: StageBase) {
+        for (a, b) in motion.a.iter_mut().zip(&self.correction) {
+            *a -= b;
+        }
+        self.place(system, motion, base);
+    }
+
+    /// Position and velocity from the accelerations.
+    fn place(&self, system: &dyn Mechanics, motion: &mut Motion, base: StageBase) {
+        let (gq, gv) = (base.position_factor, base.velocity_factor);
+        for i in 0..motion.a.len() {
+            motion.v[i] = self.base_v[i] + gv * motion.a[i];
+            motion.q[i] = self.base_q[i] + gq * motion.a[i];
+        }
+        system.prescribe(motion.time, &mut motion.q, &mut motion.v, &mut motion.a);
+    }
+
+    fn evaluate(&mut self, system: &mut dyn Mechanics, motion: &Motion, target: Target) {
+        let residual = match target {
+            Target::Current => &mut self.residual,
+            Target::Trial => &mut self.trial_residual,
+        };
+        let state = State {
+            time: motion.time,
+            q: &motion.q,
+            v: &motion.v,
+        };
+        system.force(state, &mut self.force);
+        self.statistics.force_evaluations += 1;
+        system.mass().multiply(&motion.a, residual);
+        for i in 0..residual.len() {
+            residual[i] = if self.fixed[i] {
+                0.0
+            } else {
+                residual[i] - self.force[i]
+            };
+        }
+    }
+
+    fn correct(&mut self, target: Target) {
+        let (residual, correction) = match target {
+            Target::Current => (&self.residual, &mut self.correction),
+            Target::Trial => (&self.trial_residual, &mut self.trial_correction),
+        };
+        correction.copy_from_slice(residual);
+        self.solver.solve(correction);
+    }
+
+    fn renew(
+        &mut self,
+        system: &mut dyn Mechanics,
+        motion: &Motion,
+        base: StageBase,
+    ) -> Result<(), NotConverged> {
+        let state = State {
+            time: motion.time,
+            q: &motion.q,
+            v: &motion.v,
+        };
+        self.matrix.copy_from(system.mass());
+        system.add_tangent(
+            state,
+            base.position_factor,
+            base.velocity_factor,
+            &mut self.matrix,
+        );
+        for (index, _) in system.prescribed() {
+            self.matrix.set_unit_row(*index);
+        }
+        self.statistics.tangent_evaluations += 1;
+        self.statistics.factorizations += 1;
+        match self.solver.factor(&self.matrix) {
+            Ok(()) => {
+                self.factored_for = base.velocity_factor;
+                Ok(())
+            }
+            Err(singular) => {
+                self.factored_for = 0.0;
+                Err(NotConverged {
+                    time: motion.time,
+                    residual: f64::INFINITY,
+                    coordinate: singular.row,
+                })
+            }
+        }
+    }
+
+    /// Largest weighted entry of a correction [m/s] and where it is; NaN counts as infinite.
+    fn norm(&self, correction: &[f64], velocity_factor: f64) -> (f64, usize) {
+        let mut largest = (0.0, 0);
+        for (i, (b, weight)) in correction.iter().zip(&self.weights).enumerate() {
+            let value = (b * weight).abs();
+            if value > largest.0 {
+                largest = (value, i);
+            } else if value.is_nan() {
+                return (f64::INFINITY, i);
+            }
+        }
+        (largest.0 * velocity_factor, largest.1)
+    }
+}
+
+/// Which residual and correction are meant.
+#[derive(Clone, Copy)]
+enum Target {
+    Current,
+    Trial,
+}

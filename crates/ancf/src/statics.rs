@@ -1,0 +1,173 @@
+//! Static equilibrium by Newton's method with a shrinking shift and natural monotonicity.
+//!
+//! Solves `f(q, 0) = 0` for the coordinates that are not prescribed:
+//!
+//! ```text
+//! (K + sigma M) b = f(q)        q <- q + s b
+//! ```
+//!
+//! The shift `sigma` [1/s²] starts large, so that the first steps follow the forces like a heavily
+//! damped motion, and shrinks with every good step until the plain Newton step remains. It also keeps
+//! rigid motions without stiffness (a belt sliding along itself) from making the matrix singular.
+//! `s` is halved until the next correction is smaller (natural monotonicity), steps are capped.
+
+use thiserror::Error;
+
+use crate::linear::{BorderedMatrix, CyclicSolver, Solver};
+use crate::system::{Mechanics, State};
+
+/// How to look for the equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settle {
+    /// First shift [1/s²].
+    pub shift: f64,
+    /// Factor on the shift after a good step.
+    pub shrink: f64,
+    /// Largest step of any coordinate, in scaled metres.
+    pub step_limit: f64,
+    /// Correction, in scaled metres, at which the iteration ends.
+    pub tolerance: f64,
+    /// Most iterations.
+    pub max_iterations: usize,
+}
+
+/// A found equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settled {
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Last correction, in scaled metres.
+    pub correction: f64,
+}
+
+/// No equilibrium was found.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum StaticsError {
+    /// The iteration did not come to rest.
+    #[error("no equilibrium after {iterations} iterations: last correction {correction:.1e} m at coordinate {coordinate}")]
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// Last correction in scaled metres.
+        correction: f64,
+        /// Coordinate with the largest correction.
+        coordinate: usize,
+    },
+    /// The tangent is singular: a free motion is left.
+    #[error("the structure can move freely at coordinate {coordinate}")]
+    Singular {
+        /// The coordinate whose pivot vanished.
+        coordinate: usize,
+    },
+}
+
+/// Moves `q` to an equilibrium near it, at zero velocity and time `time`.
+pub fn settle(
+    system: &mut dyn Mechanics,
+    time: f64,
+    q: &mut [f64],
+    options: Settle,
+) -> Result<Settled, StaticsError> {
+    let structure = system.structure();
+    let size = structure.size();
+    let scales = system.scales().to_vec();
+    let rest = vec![0.0; size];
+    let mut fixed = vec![false; size];
+    for (index, _) in system.prescribed() {
+        fixed[*index] = true;
+    }
+    let mut matrix = BorderedMatrix::new(structure);
+    let mut solver = CyclicSolver::new(structure);
+    let mut force = vec![0.0; size];
+    let mut correction = vec![0.0; size];
+    let mut trial = q.to_vec();
+    let mut shift = options.shift;
+    let mut last = (f64::INFINITY, 0);
+
+    for iteration in 1..=options.max_iterations {
+        let state = State {
+            time,
+            q,
+            v: &rest,
+        };
+        matrix.clear();
+        matrix.add_scaled(shift, system.mass());
+        system.add_tangent(state, 1.0, 0.0, &mut matrix);
+        for (index, is_fixed) in fixed.iter().enumerate() {
+            if *is_fixed {
+                matrix.set_unit_row(index);
+            }
+        }
+        let evaluate = |system: &mut dyn Mechanics, q: &[f64], out: &mut [f64]| {
+            system.force(State { time, q, v: &rest }, out);
+            for (value, is_fixed) in out.iter_mut().zip(&fixed) {
+                if *is_fixed {
+                    *value = 0.0;
+                }
+            }
+        };
+        evaluate(system, q, &mut force);
+        solver
+            .factor(&matrix)
+            .map_err(|singular| StaticsError::Singular {
+                coordinate: singular.row,
+            })?;
+        correction.copy_from_slice(&force);
+        solver.solve(&mut correction);
+        let size_now = norm(&correction, &scales);
+        last = size_now;
+        if size_now.0 < options.tolerance && shift < options.shift * 1.0e-6 {
+            for (x, b) in q.iter_mut().zip(&correction) {
+                *x += b;
+            }
+            return Ok(Settled {
+                iterations: iteration,
+                correction: size_now.0,
+            });
+        }
+        let mut damping = (options.step_limit / size_now.0).min(1.0);
+        let mut accepted = false;
+        for _ in 0..12 {
+            for i in 0..size {
+                trial[i] = q[i] + damping * correction[i];
+            }
+            evaluate(system, &trial, &mut force);
+            solver.solve(&mut force);
+            let next = norm(&force, &scales).0;
+            if next <= (1.0 - 0.25 * damping) * size_now.0 {
+                accepted = true;
+                break;
+            }
+            damping *= 0.5;
+        }
+        if accepted {
+            q.copy_from_slice(&trial);
+            shift *= options.shrink;
+        } else {
+            // Less far, more along the forces.
+            shift = (shift / options.shrink.powi(3)).max(options.shift * 1.0e-9);
+            if !size_now.0.is_finite() {
+                break;
+            }
+        }
+    }
+    Err(StaticsError::NotConverged {
+        iterations: options.max_iterations,
+        correction: last.0,
+        coordinate: last.1,
+    })
+}
+
+/// Largest scaled entry and where it is; NaN counts as infinite.
+fn norm(correction: &[f64], scales: &[f64]) -> (f64, usize) {
+    let mut largest = (0.0, 0);
+    for (i, (b, scale)) in correction.iter().zip(scales).enumerate() {
+        let value = (b * scale).abs();
+        if value > largest.0 {
+            largest = (value, i);
+        } else if value.is_nan() {
+            return (f64::INFINITY, i);
+        }
+    }
+    largest
+}

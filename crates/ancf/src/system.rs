@@ -1,0 +1,235 @@
+//! A mechanical system: one flexible body, rigid coordinates beside it, and a law of forces.
+//!
+//! Coordinates `q = [nodes of the body ..., rigid coordinates ...]`. The equations of motion are
+//!
+//! ```text
+//! M q'' = f(t, q, q')          M constant
+//! ```
+//!
+//! with prescribed rigid coordinates put in exactly. [`Mechanics`] is what integrators and statics
+//! see of it.
+
+use std::fmt;
+
+use crate::element::Element;
+use crate::linear::{BorderedMatrix, Structure};
+use crate::mesh::Mesh;
+
+/// Time, coordinates and velocities.
+#[derive(Clone, Copy, Debug)]
+pub struct State<'a> {
+    /// Time [s].
+    pub time: f64,
+    /// Coordinates.
+    pub q: &'a [f64],
+    /// Velocities.
+    pub v: &'a [f64],
+}
+
+/// What integrators and statics need to know of a system.
+pub trait Mechanics {
+    /// Shape of its matrices.
+    fn structure(&self) -> Structure;
+
+    /// The constant mass matrix.
+    fn mass(&self) -> &BorderedMatrix;
+
+    /// Writes the generalised forces at `state` to `force`.
+    fn force(&mut self, state: State<'_>, force: &mut [f64]);
+
+    /// Adds `position_factor * K + velocity_factor * C` to `matrix`, `K = -df/dq`, `C = -df/dv`.
+    fn add_tangent(
+        &mut self,
+        state: State<'_>,
+        position_factor: f64,
+        velocity_factor: f64,
+        matrix: &mut BorderedMatrix,
+    );
+
+    /// Coordinates whose motion is prescribed: index and motion.
+    fn prescribed(&self) -> &[(usize, Box<dyn Motion>)];
+
+    /// Scale [m per unit] of each coordinate in convergence norms.
+    fn scales(&self) -> &[f64];
+
+    /// Puts the prescribed coordinates, velocities and accelerations at `time` in.
+    fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64], a: &mut [f64]) {
+        for (index, motion) in self.prescribed() {
+            [q[*index], v[*index], a[*index]] = motion.at(time);
+        }
+    }
+}
+
+/// A prescribed motion of one coordinate.
+pub trait Motion: fmt::Debug + Send + Sync {
+    /// Position, velocity and acceleration at `time`; right-hand values at kinks.
+    fn at(&self, time: f64) -> [f64; 3];
+}
+
+/// Forces beyond the body's own elasticity: contact, loads, springs.
+pub trait ForceLaw {
+    /// Adds its generalised forces at `state` to `force`.
+    fn add_force(&mut self, state: State<'_>, force: &mut [f64]);
+
+    /// Adds `position_factor * K + velocity_factor * C` of its forces to `matrix`.
+    fn add_tangent(
+        &mut self,
+        state: State<'_>,
+        position_factor: f64,
+        velocity_factor: f64,
+        matrix: &mut BorderedMatrix,
+    );
+}
+
+/// No further forces.
+impl ForceLaw for () {
+    fn add_force(&mut self, _: State<'_>, _: &mut [f64]) {}
+    fn add_tangent(&mut self, _: State<'_>, _: f64, _: f64, _: &mut BorderedMatrix) {}
+}
+
+/// A coordinate of a rigid body whose mass matrix is diagonal: the angle of a rotor, a position.
+#[derive(Debug)]
+pub struct RigidCoordinate {
+    /// Mass [kg] or moment of inertia [kg m²].
+    pub inertia: f64,
+    /// Scale [m per unit] in convergence norms: 1 for a position, a radius for an angle.
+    pub scale: f64,
+    /// Prescribed motion, if any.
+    pub motion: Option<Box<dyn Motion>>,
+}
+
+/// A flexible body with rigid coordinates and a law of forces.
+#[derive(Debug)]
+pub struct System<E, L> {
+    mesh: Mesh<E>,
+    /// The law of forces.
+    pub law: L,
+    structure: Structure,
+    mass: BorderedMatrix,
+    constant_force: Vec<f64>,
+    prescribed: Vec<(usize, Box<dyn Motion>)>,
+    scales: Vec<f64>,
+}
+
+impl<E: Element, L: ForceLaw> System<E, L> {
+    /// Joins `mesh`, whose coordinates have the given `scales`, the rigid coordinates and `law`.
+    #[must_use]
+    pub fn new(mesh: Mesh<E>, mut scales: Vec<f64>, rigid: Vec<RigidCoordinate>, law: L) -> Self {
+        let structure = Structure {
+            sections: mesh.nodes(),
+            block: E::NODE_DOF,
+            closed: mesh.is_closed(),
+            border: rigid.len(),
+        };
+        let mut mass = BorderedMatrix::new(structure);
+        mesh.add_mass(&mut mass);
+        let mut prescribed = Vec::new();
+        for (k, coordinate) in rigid.into_iter().enumerate() {
+            mass.add_corner(k, k, coordinate.inertia);
+            scales.push(coordinate.scale);
+            if let Some(motion) = coordinate.motion {
+                prescribed.push((structure.chain() + k, motion));
+            }
+        }
+        Self {
+            mesh,
+            law,
+            structure,
+            mass,
+            constant_force: vec![0.0; structure.size()],
+            prescribed,
+            scales,
+        }
+    }
+
+    /// Adds gravity: a uniform acceleration field [m/s²] on the flexible body.
+    pub fn add_gravity(&mut self, gravity: &[f64]) {
+        let mut field = vec![0.0; self.structure.size()];
+        for node in field[..self.structure.chain()].chunks_exact_mut(E::NODE_DOF) {
+            node[..E::DIMENSION].copy_from_slice(&gravity[..E::DIMENSION]);
+        }
+        let mut force = vec![0.0; field.len()];
+        self.mass.multiply(&field, &mut force);
+        for (sum, value) in self.constant_force.iter_mut().zip(force) {
+            *sum += value;
+        }
+    }
+
+    /// The same system under another law of forces.
+    #[must_use]
+    pub fn map_law<K: ForceLaw>(self, change: impl FnOnce(L) -> K) -> System<E, K> {
+        System {
+            mesh: self.mesh,
+            law: change(self.law),
+            structure: self.structure,
+            mass: self.mass,
+            constant_force: self.constant_force,
+            prescribed: self.prescribed,
+            scales: self.scales,
+        }
+    }
+
+    /// The flexible body.
+    pub fn mesh(&self) -> &Mesh<E> {
+        &self.mesh
+    }
+
+    /// Kinetic energy [J].
+    pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        let mut momentum = vec![0.0; v.len()];
+        self.mass.multiply(v, &mut momentum);
+        0.5 * v.iter().zip(&momentum).map(|(a, b)| a * b).sum::<f64>()
+    }
+
+    /// Strain energy [J] of the flexible body.
+    pub fn strain_energy(&self, q: &[f64]) -> f64 {
+        self.mesh.energy(q)
+    }
+
+    /// Potential energy [J] of constant forces (gravity), zero where `q` is zero.
+    pub fn constant_potential(&self, q: &[f64]) -> f64 {
+        -self
+            .constant_force
+            .iter()
+            .zip(q)
+            .map(|(f, x)| f * x)
+            .sum::<f64>()
+    }
+}
+
+impl<E: Element, L: ForceLaw> Mechanics for System<E, L> {
+    fn structure(&self) -> Structure {
+        self.structure
+    }
+
+    fn mass(&self) -> &BorderedMatrix {
+        &self.mass
+    }
+
+    fn force(&mut self, state: State<'_>, force: &mut [f64]) {
+        force.copy_from_slice(&self.constant_force);
+        self.mesh.add_force(state.q, state.v, force);
+        self.law.add_force(state, force);
+    }
+
+    fn add_tangent(
+        &mut self,
+        state: State<'_>,
+        position_factor: f64,
+        velocity_factor: f64,
+        matrix: &mut BorderedMatrix,
+    ) {
+        self.mesh
+            .add_tangent(state.q, state.v, position_factor, velocity_factor, matrix);
+        self.law
+            .add_tangent(state, position_factor, velocity_factor, matrix);
+    }
+
+    fn prescribed(&self) -> &[(usize, Box<dyn Motion>)] {
+        &self.prescribed
+    }
+
+    fn scales(&self) -> &[f64] {
+        &self.scales
+    }
+}

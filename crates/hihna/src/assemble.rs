@@ -1,0 +1,328 @@
+//! From a drive to a mechanical system with its initial shape: the belt lies evenly stretched on the
+//! path around the pulleys, the nodes `path / n` apart.
+
+use std::num::NonZeroUsize;
+
+use ancf::dynamics::Motion;
+use ancf::element::{BeltBeam2, Element, LineElement};
+use ancf::material::Isotropic;
+use ancf::mesh::Mesh;
+use ancf::quadrature::Rule;
+use ancf::section::PlanarSection;
+use ancf::system::{self, RigidCoordinate, System};
+use thiserror::Error;
+
+use crate::contact::{BeltContact, ContactPulley, Penalty};
+use crate::drive::{Belt, Drive, Pulley};
+use crate::friction::FrictionLaw;
+use crate::layout::{Layout, LayoutError};
+use crate::profile::Profile;
+
+/// Stretch beyond which a belt is taken to be the wrong one.
+const LARGEST_STRETCH: f64 = 2.0;
+/// Turning of the belt within one element beyond which contact is resolved poorly [rad].
+const LARGEST_TURN: f64 = 1.05;
+
+/// A drive that cannot be put together.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum AssemblyError {
+    /// The pulleys do not make a belt path.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+    /// The belt is longer than its path.
+    #[error(
+        "the belt is too long: unstretched {length:.6} m, but the path around the pulleys is only {path:.6} m ({excess:.6} m less); a length below {path:.6} m fits"
+    )]
+    TooLong {
+        /// Unstretched length [m].
+        length: f64,
+        /// Path length [m].
+        path: f64,
+        /// Their difference [m].
+        excess: f64,
+    },
+    /// The belt would have to stretch beyond reason.
+    #[error(
+        "the belt is too short: unstretched {length:.6} m on a path of {path:.6} m would be stretched {stretch:.2} times; a length above {shortest:.6} m fits"
+    )]
+    TooShort {
+        /// Unstretched length [m].
+        length: f64,
+        /// Path length [m].
+        path: f64,
+        /// Path over length.
+        stretch: f64,
+        /// Shortest length accepted [m].
+        shortest: f64,
+    },
+}
+
+/// What is wrong but does not keep the drive from running.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum Warning {
+    /// Elements bend too far around a pulley.
+    #[error(
+        "an element turns by {turn:.0} degrees around pulley `{pulley}`: contact is resolved poorly; use at least {elements} elements"
+    )]
+    CoarseMesh {
+        /// The smallest pulley.
+        pulley: String,
+        /// Turning of one element [degrees].
+        turn: f64,
+        /// Number of elements that would do.
+        elements: usize,
+    },
+}
+
+/// How tight the belt is, worked out on its path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mounting {
+    /// Unstretched length [m].
+    pub length: f64,
+    /// Path length [m].
+    pub path: f64,
+    /// Path over length.
+    pub stretch: f64,
+    /// True axial force at this stretch [N], before the pulleys' surfaces yield.
+    pub tension: f64,
+}
+
+impl Mounting {
+    /// The mounting of `belt` on the path of `layout`.
+    pub fn new(belt: &Belt, layout: &Layout) -> Result<Self, AssemblyError> {
+        let path = layout.length;
+        let stiffness = axial_stiffness(belt);
+        let length = if let Some(length) = belt.length {
+            length
+        } else if let Some(strain) = belt.strain {
+            path / (1.0 + strain)
+        } else {
+            path / stretch_under(belt.tension.unwrap_or(0.0) / stiffness)
+        };
+        let stretch = path / length;
+        if stretch < 1.0 - 1.0e-12 {
+            return Err(AssemblyError::TooLong {
+                length,
+                path,
+                excess: length - path,
+            });
+        }
+        if stretch > LARGEST_STRETCH {
+            return Err(AssemblyError::TooShort {
+                length,
+                path,
+                stretch,
+                shortest: path / LARGEST_STRETCH,
+            });
+        }
+        Ok(Self {
+            length,
+            path,
+            stretch,
+            tension: 0.5 * stiffness * (stretch * stretch - 1.0) * stretch,
+        })
+    }
+}
+
+/// alpha1 E A [N].
+fn axial_stiffness(belt: &Belt) -> f64 {
+    belt.axial_factor * belt.youngs_modulus * belt.width * belt.thickness
+}
+
+/// The stretch `f` at which `(f² - 1) f / 2` equals `load`, by Newton from the right.
+fn stretch_under(load: f64) -> f64 {
+    let mut f = 1.0 + load;
+    for _ in 0..50 {
+        let step = (0.5 * (f * f - 1.0) * f - load) / (1.5 * f * f - 0.5);
+        f -= step;
+        if step.abs() < 1.0e-15 * f {
+            break;
+        }
+    }
+    f
+}
+
+/// A drive ready to settle and run.
+#[derive(Debug)]
+pub struct Assembly<E, F> {
+    /// The mechanical system.
+    pub system: System<E, BeltContact<E, F>>,
+    /// The initial state: belt on the path, everything at rest.
+    pub motion: Motion,
+    /// The belt's path.
+    pub layout: Layout,
+    /// How tight the belt is.
+    pub mounting: Mounting,
+    /// Things to tell the user.
+    pub warnings: Vec<Warning>,
+    /// Material coordinate of the first node of each element [m].
+    pub element_start: Vec<f64>,
+}
+
+/// Belt elements that a drive file can ask for.
+pub trait BeltElementType: LineElement {
+    /// An element of the given undeformed length [m] for `belt`.
+    fn for_belt(belt: &Belt, length: f64) -> Self;
+}
+
+impl BeltElementType for BeltBeam2 {
+    fn for_belt(belt: &Belt, length: f64) -> Self {
+        Self::new(
+            length,
+            &PlanarSection::rectangle(belt.width, belt.thickness),
+            &Isotropic {
+                youngs_modulus: belt.youngs_modulus,
+                poisson_ratio: belt.poisson_ratio,
+                density: belt.density,
+            },
+            belt.axial_factor,
+            belt.bending_factor,
+            belt.damping_time,
+        )
+    }
+}
+
+impl<E: BeltElementType, F: FrictionLaw> Assembly<E, F> {
+    /// Puts `drive` together with friction law `friction`.
+    pub fn new(drive: &Drive, friction: F) -> Result<Self, AssemblyError> {
+        let belt = &drive.belt;
+        let layout = Layout::new(&drive.pulley)?;
+        let mounting = Mounting::new(belt, &layout)?;
+        let count = belt.elements;
+        let length = mounting.length / count as f64;
+        let elements = vec![E::for_belt(belt, length); count];
+        let points = NonZeroUsize::new(drive.contact.points).unwrap_or(NonZeroUsize::MIN);
+        let contact = BeltContact::new(
+            &elements,
+            drive.pulley.iter().map(contact_pulley).collect(),
+            Penalty {
+                stiffness: drive.contact.stiffness,
+                damping: drive.contact.damping,
+                clamp: drive.contact.clamp_normal_force,
+            },
+            friction,
+            Rule::gauss(points),
+        );
+        let mesh = Mesh::closed(elements);
+        let scales = mesh.scales(length, belt.thickness);
+        let mut system = System::new(
+            mesh,
+            scales,
+            drive.pulley.iter().map(rotor).collect(),
+            contact,
+        );
+        if drive.gravity != [0.0, 0.0] {
+            system.add_gravity(&drive.gravity);
+        }
+        let motion = on_path::<E>(drive, &layout, &mounting);
+        let warnings = coarse_mesh(drive, &mounting).into_iter().collect();
+        Ok(Self {
+            system,
+            motion,
+            layout,
+            mounting,
+            warnings,
+            element_start: (0..count).map(|i| i as f64 * length).collect(),
+        })
+    }
+
+    /// The same drive under another friction law.
+    #[must_use]
+    pub fn with_friction<G: FrictionLaw>(self, friction: G) -> Assembly<E, G> {
+        Assembly {
+            system: self.system.map_law(|law| law.with_friction(friction)),
+            motion: self.motion,
+            layout: self.layout,
+            mounting: self.mounting,
+            warnings: self.warnings,
+            element_start: self.element_start,
+        }
+    }
+}
+
+/// The belt evenly stretched on its path, at rest.
+fn on_path<E: Element>(drive: &Drive, layout: &Layout, mounting: &Mounting) -> Motion {
+    let count = drive.belt.elements;
+    let chain = count * E::NODE_DOF;
+    let mut motion = Motion::zero(chain + drive.pulley.len());
+    for (i, node) in motion.q[..chain].chunks_exact_mut(E::NODE_DOF).enumerate() {
+        let s = drive.belt.first_node + mounting.path * i as f64 / count as f64;
+        let place = layout.point(s);
+        let [tx, ty] = place.tangent;
+        node[0..2].copy_from_slice(&place.position);
+        node[2] = mounting.stretch * tx;
+        node[3] = mounting.stretch * ty;
+        node[4] = -ty;
+        node[5] = tx;
+    }
+    motion
+}
+
+fn contact_pulley(pulley: &Pulley) -> ContactPulley {
+    ContactPulley {
+        center: pulley.center,
+        radius: pulley.radius,
+        torque: pulley.torque.clone(),
+    }
+}
+
+fn rotor(pulley: &Pulley) -> RigidCoordinate {
+    let motion: Option<Box<dyn system::Motion>> = match (&pulley.speed, &pulley.angle) {
+        (Some(speed), _) => Some(Box::new(BySpeed(speed.clone()))),
+        (None, Some(angle)) => Some(Box::new(ByAngle(angle.clone()))),
+        (None, None) => None,
+    };
+    RigidCoordinate {
+        inertia: pulley.inertia,
+        scale: pulley.radius,
+        motion,
+    }
+}
+
+/// A rotor driven at a prescribed speed from angle zero.
+#[derive(Debug)]
+struct BySpeed(Profile);
+
+impl system::Motion for BySpeed {
+    fn at(&self, time: f64) -> [f64; 3] {
+        [
+            self.0.integral(time),
+            self.0.value(time),
+            self.0.derivative(time),
+        ]
+    }
+}
+
+/// A rotor driven along a prescribed angle.
+#[derive(Debug)]
+struct ByAngle(Profile);
+
+impl system::Motion for ByAngle {
+    fn at(&self, time: f64) -> [f64; 3] {
+        [
+            self.0.value(time),
+            self.0.derivative(time),
+            self.0.second_derivative(time),
+        ]
+    }
+}
+
+/// Warns of elements that are long against the smallest pulley.
+fn coarse_mesh(drive: &Drive, mounting: &Mounting) -> Option<Warning> {
+    let smallest = drive
+        .pulley
+        .iter()
+        .min_by(|a, b| a.radius.total_cmp(&b.radius))?;
+    let turn = mounting.path / drive.belt.elements as f64 / smallest.radius;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a positive count of elements"
+    )]
+    let elements = (mounting.path / (smallest.radius * LARGEST_TURN)).ceil() as usize;
+    (turn > LARGEST_TURN).then(|| Warning::CoarseMesh {
+        pulley: smallest.name.clone(),
+        turn: turn.to_degrees(),
+        elements,
+    })
+}

@@ -1,0 +1,157 @@
+//! The history of a run: one row of numbers per output time.
+
+use crate::observe::{Powers, PulleyState, SpanState, Stored};
+
+/// A table of numbers with named columns (`history.csv`).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    columns: Vec<String>,
+    values: Vec<f64>,
+}
+
+const PULLEY_COLUMNS: [&str; 7] = [
+    "angle",
+    "speed",
+    "torque",
+    "external_torque",
+    "hub_force_x",
+    "hub_force_y",
+    "slip_speed",
+];
+const SPAN_COLUMNS: [&str; 2] = ["tension", "strain"];
+const ENERGY_COLUMNS: [&str; 9] = [
+    "energy.kinetic",
+    "energy.strain",
+    "energy.potential",
+    "energy.input",
+    "energy.friction_loss",
+    "energy.contact_loss",
+    "energy.damping_loss",
+    "energy.load_work",
+    "energy.residual",
+];
+
+impl History {
+    /// An empty history of a drive with pulleys `names`.
+    #[must_use]
+    pub fn new(names: &[String]) -> Self {
+        let mut columns = vec!["time".to_owned()];
+        for name in names {
+            columns.extend(PULLEY_COLUMNS.iter().map(|c| format!("{name}.{c}")));
+        }
+        for (i, name) in names.iter().enumerate() {
+            let to = &names[(i + 1) % names.len()];
+            columns.extend(SPAN_COLUMNS.iter().map(|c| format!("{name}-{to}.{c}")));
+        }
+        columns.extend(ENERGY_COLUMNS.iter().map(ToString::to_string));
+        Self {
+            columns,
+            values: Vec::new(),
+        }
+    }
+
+    /// Adds a row.
+    pub(crate) fn push(
+        &mut self,
+        time: f64,
+        pulleys: &[PulleyState],
+        spans: &[SpanState],
+        stored: &Stored,
+        work: &Powers,
+        residual: f64,
+    ) {
+        let values = &mut self.values;
+        values.push(time);
+        for p in pulleys {
+            values.extend([
+                p.angle,
+                p.speed,
+                p.torque,
+                p.external_torque,
+                p.hub_force[0],
+                p.hub_force[1],
+                p.slip_speed,
+            ]);
+        }
+        for s in spans {
+            values.extend([s.tension, s.strain]);
+        }
+        values.extend([
+            stored.kinetic,
+            stored.strain,
+            stored.potential,
+            work.input,
+            work.friction,
+            work.contact,
+            work.damping,
+            work.load,
+            residual,
+        ]);
+    }
+
+    /// Names of the columns.
+    #[must_use]
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The rows in order of time.
+    pub fn rows(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.values.chunks_exact(self.columns.len().max(1))
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows().len()
+    }
+
+    /// Whether there is no row.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// The column `name`, or `None` if there is none of that name.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let index = self.columns.iter().position(|c| c == name)?;
+        Some(self.rows().map(|row| row[index]).collect())
+    }
+
+    /// Mean of column `name` over times in `[from, to]`, by the rows.
+    #[must_use]
+    pub fn mean(&self, name: &str, from: f64, to: f64) -> Option<f64> {
+        let index = self.columns.iter().position(|c| c == name)?;
+        let (sum, count) = self
+            .rows()
+            .filter(|row| row[0] >= from && row[0] <= to)
+            .fold((0.0, 0_usize), |(sum, n), row| (sum + row[index], n + 1));
+        (count > 0).then(|| sum / count as f64)
+    }
+
+    /// Mean of the product of two columns over times in `[from, to]`, by the rows.
+    #[must_use]
+    pub fn mean_product(&self, a: &str, b: &str, from: f64, to: f64) -> Option<f64> {
+        let a = self.columns.iter().position(|c| c == a)?;
+        let b = self.columns.iter().position(|c| c == b)?;
+        let (sum, count) = self
+            .rows()
+            .filter(|row| row[0] >= from && row[0] <= to)
+            .fold((0.0, 0_usize), |(sum, n), row| (sum + row[a] * row[b], n + 1));
+        (count > 0).then(|| sum / count as f64)
+    }
+
+    /// Mean rate of change of column `name` over times in `[from, to]`, from the row before the
+    /// first if there is only one.
+    #[must_use]
+    pub fn mean_rate(&self, name: &str, from: f64, to: f64) -> Option<f64> {
+        let index = self.columns.iter().position(|c| c == name)?;
+        let last = self.rows().rfind(|row| row[0] <= to)?;
+        let first = self
+            .rows()
+            .find(|row| row[0] >= from && row[0] < last[0])
+            .or_else(|| self.rows().rfind(|row| row[0] < last[0]))?;
+        Some((last[index] - first[index]) / (last[0] - first[0]))
+    }
+}

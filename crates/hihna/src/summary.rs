@@ -1,0 +1,268 @@
+//! The summary of a run (`summary.json`).
+
+use serde::{Serialize, Serializer};
+
+use crate::drive::{BeltElement, Drive};
+use crate::history::History;
+use crate::simulate::Outcome;
+
+/// Part of the run, at its end, over which steady means are taken.
+const STEADY_PART: f64 = 0.1;
+
+/// Values by name, in order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+/// All of `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The drive's title.
+    pub title: String,
+    /// Size of the model.
+    pub model: Model,
+    /// What the solution cost.
+    pub solver: Solver,
+    /// The equilibrium at rest.
+    pub start: Start,
+    /// The last state.
+    pub end: Report,
+    /// Means over the last tenth of the run.
+    pub steady: Report,
+    /// The balances.
+    pub audit: Audit,
+    /// Things to know.
+    pub warnings: Vec<String>,
+}
+
+/// Size of the model.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Model {
+    /// Element type.
+    pub element: BeltElement,
+    /// Number of elements.
+    pub elements: usize,
+    /// Number of coordinates.
+    pub dofs: usize,
+    /// Contact integration points around the belt.
+    pub contact_points: usize,
+    /// Length of the belt's path around the pulleys [m].
+    pub path_length: f64,
+    /// Unstretched length of the belt [m].
+    pub belt_length: f64,
+}
+
+/// What the solution cost.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(missing_docs, reason = "counters named as in the contract")]
+pub struct Solver {
+    pub integrator: &'static str,
+    pub steps: usize,
+    pub halved_steps: usize,
+    pub fallback_steps: usize,
+    pub force_evaluations: usize,
+    pub tangent_evaluations: usize,
+    pub factorizations: usize,
+    /// Stepping alone [s].
+    pub cpu_seconds: f64,
+    /// The whole run [s].
+    pub wall_seconds: f64,
+}
+
+/// The equilibrium at rest on the pulleys.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Start {
+    /// Mean true axial force [N].
+    pub tension: f64,
+    /// Largest penetration into a pulley [m].
+    pub penetration: f64,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Axial force by the formula of the belt stretched on its rigid path [N].
+    pub path_tension: f64,
+}
+
+/// The drive at one time, or on average.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Time, or the middle of the times averaged [s].
+    pub time: f64,
+    /// By pulley.
+    pub pulley: Named<PulleyReport>,
+    /// By span, named `from-to`.
+    pub span: Named<SpanReport>,
+    /// Power put in by drivers [W].
+    pub power_in: f64,
+    /// Power taken out by loads [W].
+    pub power_out: f64,
+    /// Power lost to friction and damping [W].
+    pub power_lost: f64,
+}
+
+/// A pulley at one time, or on average.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PulleyReport {
+    /// Speed [rad/s].
+    pub speed: f64,
+    /// Torque of the belt on the pulley [N m].
+    pub torque: f64,
+    /// External torque [N m].
+    pub external_torque: f64,
+    /// Force of the belt on the pulley [N].
+    pub hub_force: [f64; 2],
+    /// Mean velocity of the belt against the surface [m/s].
+    pub slip_speed: f64,
+    /// Loss of surface speed against the first driver [-].
+    pub speed_loss: f64,
+}
+
+/// A span at one time, or on average.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SpanReport {
+    /// True axial force [N].
+    pub tension: f64,
+    /// Engineering strain [-].
+    pub strain: f64,
+}
+
+/// The balances.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Audit {
+    /// Work of the drivers [J].
+    pub energy_input: f64,
+    /// Largest energy residual relative to the work turned over [-].
+    pub energy_residual: f64,
+    /// Largest residual of a pulley's torque balance, relative [-].
+    pub torque_residual: f64,
+    /// Largest residual allowed [-].
+    pub tolerance: f64,
+    /// Whether both close.
+    pub passed: bool,
+}
+
+impl Summary {
+    /// The summary of `outcome`.
+    #[must_use]
+    pub fn new(drive: &Drive, outcome: &Outcome) -> Self {
+        let end = drive.run.end_time;
+        let statistics = outcome.statistics;
+        let last = outcome.history.rows().next_back().map_or(end, |row| row[0]);
+        Self {
+            title: drive.title.clone(),
+            model: Model {
+                element: drive.belt.element,
+                elements: drive.belt.elements,
+                dofs: outcome.dofs,
+                contact_points: drive.belt.elements * drive.contact.points,
+                path_length: outcome.mounting.path,
+                belt_length: outcome.mounting.length,
+            },
+            solver: Solver {
+                integrator: outcome.integrator,
+                steps: statistics.steps,
+                halved_steps: statistics.halved_steps,
+                fallback_steps: statistics.fallback_steps,
+                force_evaluations: statistics.force_evaluations,
+                tangent_evaluations: statistics.tangent_evaluations,
+                factorizations: statistics.factorizations,
+                cpu_seconds: outcome.cpu_seconds,
+                wall_seconds: outcome.wall_seconds,
+            },
+            start: Start {
+                tension: outcome.start.tension,
+                penetration: outcome.start.penetration,
+                iterations: outcome.start.iterations,
+                path_tension: outcome.mounting.tension,
+            },
+            end: report(drive, &outcome.history, last, last),
+            steady: report(drive, &outcome.history, (1.0 - STEADY_PART) * end, end),
+            audit: Audit {
+                energy_input: outcome.audit.energy_input,
+                energy_residual: outcome.audit.energy_residual,
+                torque_residual: outcome.audit.torque_residual,
+                tolerance: outcome.audit.tolerance,
+                passed: outcome.audit.passed(),
+            },
+            warnings: outcome.warnings.iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+/// Means over the rows with times in `[from, to]`; a single row if both are its time.
+fn report(drive: &Drive, history: &History, from: f64, to: f64) -> Report {
+    let mean = |name: &str| history.mean(name, from, to).unwrap_or(f64::NAN);
+    let names: Vec<&str> = drive.pulley.iter().map(|p| p.name.as_str()).collect();
+    let reference = drive
+        .pulley
+        .iter()
+        .position(crate::drive::Pulley::is_driver)
+        .map_or(0.0, |p| {
+            mean(&format!("{}.speed", names[p])).abs() * drive.pulley[p].radius
+        });
+    let pulley = drive
+        .pulley
+        .iter()
+        .map(|p| {
+            let of = |what: &str| mean(&format!("{}.{what}", p.name));
+            let speed = of("speed");
+            let speed_loss = if reference > 0.0 {
+                1.0 - speed.abs() * p.radius / reference
+            } else {
+                0.0
+            };
+            let report = PulleyReport {
+                speed,
+                torque: of("torque"),
+                external_torque: of("external_torque"),
+                hub_force: [of("hub_force_x"), of("hub_force_y")],
+                slip_speed: of("slip_speed"),
+                speed_loss,
+            };
+            (p.name.clone(), report)
+        })
+        .collect();
+    let span = (0..names.len())
+        .map(|i| {
+            let name = format!("{}-{}", names[i], names[(i + 1) % names.len()]);
+            let of = |what: &str| mean(&format!("{name}.{what}"));
+            let report = SpanReport {
+                tension: of("tension"),
+                strain: of("strain"),
+            };
+            (name, report)
+        })
+        .collect();
+    let (mut power_in, mut power_out) = (0.0, 0.0);
+    for p in &drive.pulley {
+        let power = history
+            .mean_product(
+                &format!("{}.external_torque", p.name),
+                &format!("{}.speed", p.name),
+                from,
+                to,
+            )
+            .unwrap_or(f64::NAN);
+        if p.is_driver() {
+            power_in += power;
+        } else {
+            power_out -= power;
+        }
+    }
+    let lost = ["friction_loss", "contact_loss", "damping_loss"]
+        .iter()
+        .map(|name| history.mean_rate(&format!("energy.{name}"), from, to).unwrap_or(0.0))
+        .sum();
+    Report {
+        time: 0.5 * (from + to),
+        pulley: Named(pulley),
+        span: Named(span),
+        power_in,
+        power_out,
+        power_lost: lost,
+    }
+}
