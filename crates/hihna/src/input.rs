@@ -54,6 +54,9 @@ pub fn parse(source_name: &str, text: &str, overrides: &[Override]) -> Result<Dr
         Some(value) if checker.structural.is_empty() => match deserialize(value) {
             Ok(drive) => {
                 problems.extend(rules::problems(&drive));
+                if problems.is_empty() {
+                    problems.extend(rules::mounting(&drive));
+                }
                 Some(drive)
             }
             Err(problem) => {
@@ -138,6 +141,9 @@ impl Drive {
             .collect();
         problems.extend(checker.ranges);
         problems.extend(rules::problems(self));
+        if problems.is_empty() {
+            problems.extend(rules::mounting(self));
+        }
         problems
     }
 }

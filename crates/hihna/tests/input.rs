@@ -589,6 +589,51 @@ fn pulleys() {
 }
 
 #[test]
+fn belts_that_cannot_be_mounted() {
+    // Path: twice the distance of the centres and once the circumference, 0.765764 + 0.510509 m.
+    let length = |value: &str| with("\"1.2727 m\"", value);
+    fails(
+        &length("1.3"),
+        "length = 1.3",
+        "belt.length",
+        &["too long", "0.023727 m less", "below 1.276273 m fits"],
+    );
+    fails(
+        &length("0.5"),
+        "length = 0.5",
+        "belt.length",
+        &["too short", "2.55 times", "above 0.638136 m fits"],
+    );
+    let strained = with("length = \"1.2727 m\"", "strain = \"150 %\"");
+    fails(
+        &strained,
+        "strain = \"150 %\"",
+        "belt.strain",
+        &["too short", "2.50 times"],
+    );
+}
+
+#[test]
+fn paths_that_do_not_close() {
+    let idler =
+        "[[pulley]]\nname = \"idler\"\ncenter = [0.0, 0.0]\nradius = 0.05\ninertia = 1\n\n[run]";
+    let within = with("[run]", idler);
+    fails(
+        &within,
+        "[[pulley]]",
+        "pulley.idler",
+        &["does not touch", "wrap = \"inside\""],
+    );
+    let all_outside = EXAMPLE.replace("radius", "wrap = \"outside\"\nradius");
+    fails(
+        &all_outside,
+        "# in the order",
+        "pulley",
+        &["every pulley has wrap = \"outside\""],
+    );
+}
+
+#[test]
 fn names() {
     let named = |name: &str| with("name = \"driven\"", &format!("name = {name:?}"));
     fails(
@@ -765,7 +810,7 @@ fn all_problems_at_once_in_the_order_of_the_file() {
 fn overrides() {
     let drive = with_overrides(&[
         "belt.elements=30",
-        "belt.length=1.3 m",
+        "belt.length=1.275 m",
         "pulley.driven.inertia = 0.2",
         "pulley.0.speed.to=\"720 rpm\"",
         "pulley.1.center.0=200 mm",
@@ -776,7 +821,7 @@ fn overrides() {
         "gravity=[0, \"-1 g0\"]",
     ]);
     assert_eq!(drive.belt.elements, 30);
-    assert_eq!(drive.belt.length, Some(1.3));
+    assert_eq!(drive.belt.length, Some(1.275));
     assert_eq!(drive.pulley[1].inertia, 0.2);
     assert!(
         (drive.pulley[0].speed.as_ref().unwrap().bound() - 24.0 * std::f64::consts::PI).abs()

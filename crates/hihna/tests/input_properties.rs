@@ -5,6 +5,7 @@ use hihna::drive::{
     Wrap,
 };
 use hihna::input::{self, Override};
+use hihna::layout::Layout;
 use hihna::profile::{Profile, Varying};
 use proptest::prelude::*;
 
@@ -12,7 +13,7 @@ const EXAMPLE: &str = include_str!("../../../examples/two_pulley.toml");
 
 /// Positive numbers of any size that leave room for products.
 fn positive() -> impl Strategy<Value = f64> {
-    (0.1_f64..10.0, -100_i32..100).prop_map(|(digits, exponent)| digits * 10.0_f64.powi(exponent))
+    (0.1_f64..10.0, -30_i32..30).prop_map(|(digits, exponent)| digits * 10.0_f64.powi(exponent))
 }
 
 fn any_sign() -> impl Strategy<Value = f64> {
@@ -127,25 +128,25 @@ fn contact() -> impl Strategy<Value = Contact> {
         )
 }
 
-/// Pulleys in a row, each with its own motion.
+/// Pulleys on a circle so that each is a corner of the belt's path, each with its own motion; the belt
+/// around two may be crossed.
 fn pulleys() -> impl Strategy<Value = Vec<Pulley>> {
-    let pulley = (
-        0.01..1.0,
-        any_sign(),
-        profile(),
-        positive(),
-        any::<bool>(),
-        any::<bool>(),
-    );
-    prop::collection::vec(pulley, 2..6).prop_map(|pulleys| {
+    let pulley = (0.01..1.0, profile(), positive(), any::<bool>());
+    (prop::collection::vec(pulley, 2..6), any::<bool>()).prop_map(|(pulleys, crossed)| {
+        let count = pulleys.len();
         let pulleys = pulleys.into_iter().enumerate();
         pulleys
-            .map(
-                |(i, (radius, height, profile, inertia, flag, outside))| Pulley {
+            .map(|(i, (radius, profile, inertia, flag))| {
+                let angle = std::f64::consts::TAU * i as f64 / count as f64;
+                Pulley {
                     name: format!("pulley_{i}"),
-                    center: [3.0 * i as f64, height],
+                    center: [10.0 * angle.cos(), 10.0 * angle.sin()],
                     radius,
-                    wrap: if outside { Wrap::Outside } else { Wrap::Inside },
+                    wrap: if crossed && count == 2 && i == 1 {
+                        Wrap::Outside
+                    } else {
+                        Wrap::Inside
+                    },
                     speed: (i == 0 && flag).then(|| profile.clone()),
                     angle: (i == 0 && !flag).then(|| profile.clone()),
                     inertia,
@@ -154,10 +155,24 @@ fn pulleys() -> impl Strategy<Value = Vec<Pulley>> {
                     } else {
                         profile
                     },
-                },
-            )
+                }
+            })
             .collect()
     })
+}
+
+/// Makes the belt as tight as a mounted belt can be: `strain` from 0 to 1, given in one of three ways.
+fn tighten(belt: &mut Belt, pulleys: &[Pulley], strain: f64) {
+    if belt.length.is_some() {
+        belt.length = Layout::new(pulleys)
+            .ok()
+            .map(|layout| layout.length / (1.0 + strain));
+    } else if belt.tension.is_some() {
+        belt.tension =
+            Some(strain * belt.axial_factor * belt.youngs_modulus * belt.width * belt.thickness);
+    } else {
+        belt.strain = Some(strain);
+    }
 }
 
 fn run() -> impl Strategy<Value = Run> {
@@ -194,14 +209,18 @@ fn drive() -> impl Strategy<Value = Drive> {
         pulleys(),
         any_sign(),
         run(),
+        0.001..0.999,
     )
-        .prop_map(|(title, belt, contact, pulley, gravity, run)| Drive {
-            title,
-            gravity: [0.0, gravity],
-            belt,
-            contact,
-            pulley,
-            run,
+        .prop_map(|(title, mut belt, contact, pulley, gravity, run, strain)| {
+            tighten(&mut belt, &pulley, strain);
+            Drive {
+                title,
+                gravity: [0.0, gravity],
+                belt,
+                contact,
+                pulley,
+                run,
+            }
         })
 }
 

@@ -1,8 +1,10 @@
 //! Rules that involve several fields of a drive. Ranges of single fields are attributes of `Drive`.
 
+use crate::assemble::{AssemblyError, Mounting};
 use crate::drive::{Belt, Drive, Pulley, Run, Step};
 use crate::input::check::own_name;
 use crate::input::problem::{FieldPath, Problem, quoted};
+use crate::layout::{Layout, LayoutError};
 use crate::profile::{Profile, Varying};
 
 /// More rows than this fill a disk before they tell anything.
@@ -29,6 +31,52 @@ pub(crate) fn problems(drive: &Drive) -> Vec<Problem> {
     span_names(&drive.pulley, &mut problems);
     run(&drive.run, &mut problems);
     problems
+}
+
+/// Whether the pulleys carry a belt and the belt fits on them. Makes sense only for a drive without
+/// other problems.
+pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
+    let tightness = match &drive.belt {
+        Belt {
+            length: Some(_), ..
+        } => "length",
+        Belt {
+            tension: Some(_), ..
+        } => "tension",
+        _ => "strain",
+    };
+    let fit = Layout::new(&drive.pulley)
+        .map_err(AssemblyError::Layout)
+        .and_then(|layout| Mounting::new(&drive.belt, &layout));
+    let error = fit.err()?;
+    let pulleys = FieldPath::default().field("pulley");
+    let path = match &error {
+        AssemblyError::TooLong { .. } | AssemblyError::TooShort { .. } => {
+            FieldPath::default().field("belt").field(tightness)
+        }
+        AssemblyError::Layout(
+            LayoutError::NoContact { pulley, .. }
+            | LayoutError::SpanBlocked { pulley, .. }
+            | LayoutError::BadPulley { pulley, .. }
+            | LayoutError::Overlap { second: pulley, .. },
+        ) => match drive.pulley.iter().position(|known| known.name == *pulley) {
+            Some(i) => pulleys.item(i, Some(pulley)),
+            None => pulleys,
+        },
+        AssemblyError::Layout(_) => pulleys,
+    };
+    let problem = Problem::new(path, error.to_string());
+    Some(match error {
+        AssemblyError::TooLong { path, .. } => {
+            problem.expected(format!("an unstretched length below {path:.6} m"))
+        }
+        AssemblyError::TooShort { shortest, path, .. } => problem.expected(format!(
+            "an unstretched length between {shortest:.6} m and {path:.6} m"
+        )),
+        AssemblyError::Layout(_) => {
+            problem.help("`hihna check` prints the path of the belt once it closes")
+        }
+    })
 }
 
 /// Exactly one of length, tension and strain says how tight the belt is.
