@@ -9,7 +9,7 @@ use hihna::layout::Layout;
 use hihna::profile::{Profile, Varying};
 use proptest::prelude::*;
 
-const EXAMPLE: &str = include_str!("../../../examples/two_pulley.toml");
+use super::EXAMPLE;
 
 /// Positive numbers of any size that leave room for products.
 fn positive() -> impl Strategy<Value = f64> {
