@@ -1,1 +1,71 @@
-fn main() {}
+//! The program `hihna`: belt drives from one text file.
+
+mod check;
+mod completions;
+mod diagnostics;
+mod drive_source;
+mod progress;
+mod quantities;
+mod run;
+mod schema;
+mod standard_output;
+mod summary;
+mod tables;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Simulates belt drives that are described in one text file.
+#[derive(Debug, Parser)]
+#[command(name = "hihna", version, about, max_term_width = 100, after_help = AFTER_HELP)]
+struct Program {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const AFTER_HELP: &str = "\
+Exit status: 0 done; 1 the run failed or its audit broke its tolerance; 2 the input or the arguments are wrong.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Arguments),
+    Check(check::Arguments),
+    Schema(schema::Arguments),
+    Completions(completions::Arguments),
+}
+
+fn main() -> ExitCode {
+    let command = Program::parse().command;
+    let json = match &command {
+        Command::Run(arguments) => arguments.json,
+        Command::Check(arguments) => arguments.json,
+        Command::Schema(_) | Command::Completions(_) => false,
+    };
+    let result = match command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Schema(arguments) => schema::schema(&arguments),
+        Command::Completions(arguments) => completions::completions(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if json {
+                failure.print_json();
+            }
+            failure.print();
+            failure.exit_code()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        super::Program::command().debug_assert();
+    }
+}

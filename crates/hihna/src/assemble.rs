@@ -308,7 +308,7 @@ impl system::Motion for ByAngle {
 }
 
 /// Warns of elements that are long against the smallest pulley.
-fn coarse_mesh(drive: &Drive, mounting: &Mounting) -> Option<Warning> {
+pub fn coarse_mesh(drive: &Drive, mounting: &Mounting) -> Option<Warning> {
     let smallest = drive
         .pulley
         .iter()

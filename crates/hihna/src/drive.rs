@@ -1,9 +1,10 @@
 //! What the user states: belt, contact, pulleys, run. Plain data in SI units.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
-use crate::profile::Profile;
+use crate::profile::{self, Profile};
+use crate::units;
 
 /// A belt drive and how to run it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -12,15 +13,16 @@ pub struct Drive {
     /// A name for the drive.
     #[serde(default)]
     pub title: String,
+    /// Acceleration of gravity [m/s²], off by default.
+    #[serde(default)]
+    #[schemars(schema_with = "units::acceleration_vector")]
+    pub gravity: [f64; 2],
     /// The belt.
     pub belt: Belt,
     /// Contact between belt and pulleys.
     pub contact: Contact,
     /// The pulleys in the order in which the belt meets them.
     pub pulley: Vec<Pulley>,
-    /// Acceleration of gravity [m/s²], off by default.
-    #[serde(default)]
-    pub gravity: [f64; 2],
     /// The time run.
     #[serde(default)]
     pub run: Run,
@@ -43,38 +45,52 @@ pub struct Belt {
     #[serde(default)]
     pub element: BeltElement,
     /// Number of elements around the belt.
+    #[schemars(extend("minimum" = 3, "maximum" = 100_000))]
+    #[serde(serialize_with = "count")]
     pub elements: usize,
     /// Unstretched length [m].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
     pub length: Option<f64>,
     /// Axial force of the belt mounted on the rigid pulleys' path [N].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "units::force", extend("exclusiveMinimum" = 0.0))]
     pub tension: Option<f64>,
     /// Engineering strain of the belt mounted on the rigid pulleys' path [-].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
     pub strain: Option<f64>,
     /// Width, along the pulley axis [m].
+    #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
     pub width: f64,
     /// Thickness, in the plane of the drive [m].
+    #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
     pub thickness: f64,
     /// Density [kg/m³].
+    #[schemars(schema_with = "units::density", extend("exclusiveMinimum" = 0.0))]
     pub density: f64,
     /// Young's modulus [Pa].
+    #[schemars(schema_with = "units::pressure", extend("exclusiveMinimum" = 0.0))]
     pub youngs_modulus: f64,
     /// Poisson's ratio [-].
     #[serde(default)]
+    #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = -1.0, "exclusiveMaximum" = 0.5))]
     pub poisson_ratio: f64,
     /// Factor alpha1 on the axial stiffness [-].
     #[serde(default = "one")]
+    #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
     pub axial_factor: f64,
     /// Factor alpha2 on bending and shear stiffness [-].
     #[serde(default = "one")]
+    #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
     pub bending_factor: f64,
     /// Kelvin-Voigt damping time of axial strain and curvature [s].
     #[serde(default)]
+    #[schemars(schema_with = "units::time", extend("minimum" = 0.0))]
     pub damping_time: f64,
     /// Where the first node starts: path length from mid-wrap of the first pulley [m].
     #[serde(default)]
+    #[schemars(schema_with = "units::length")]
     pub first_node: f64,
 }
 
@@ -83,14 +99,17 @@ pub struct Belt {
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Penalty stiffness k_p per length of belt [N/m²].
+    #[schemars(schema_with = "units::stiffness_per_length", extend("exclusiveMinimum" = 0.0))]
     pub stiffness: f64,
     /// Penalty damping c_p per length of belt [N s/m²].
     #[serde(default)]
+    #[schemars(schema_with = "units::damping_per_length", extend("minimum" = 0.0))]
     pub damping: f64,
     /// The friction law.
     pub friction: Friction,
     /// Gauss points per element.
-    #[serde(default = "default_points")]
+    #[serde(default = "default_points", serialize_with = "count")]
+    #[schemars(extend("minimum" = 1, "maximum" = 64))]
     pub points: usize,
     /// Whether the normal force is kept from pulling (c_p d' < -k_p d near the exit).
     #[serde(default)]
@@ -104,15 +123,19 @@ pub enum Friction {
     /// Tri-linear creep-rate law: force per length `min(slope |v|, coefficient |f_n|)`.
     CreepRate {
         /// Coefficient of friction mu [-].
+        #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
         coefficient: f64,
         /// Creep slope v_s [N s/m²].
+        #[schemars(schema_with = "units::damping_per_length", extend("exclusiveMinimum" = 0.0))]
         slope: f64,
     },
     /// Coulomb friction regularised by a velocity: `coefficient |f_n| min(|v| / velocity, 1)`.
     Coulomb {
         /// Coefficient of friction mu [-].
+        #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
         coefficient: f64,
         /// Slip velocity at which friction is fully developed [m/s].
+        #[schemars(schema_with = "units::velocity", extend("exclusiveMinimum" = 0.0))]
         velocity: f64,
     },
 }
@@ -135,24 +158,37 @@ pub struct Pulley {
     /// Name, unique within the drive.
     pub name: String,
     /// Centre [m].
+    #[schemars(schema_with = "units::point")]
     pub center: [f64; 2],
     /// Radius [m].
+    #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
     pub radius: f64,
     /// Side of the belt.
     #[serde(default)]
     pub wrap: Wrap,
     /// Prescribed speed [rad/s], positive counter-clockwise.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "profile::angular_velocity")]
     pub speed: Option<Profile>,
     /// Prescribed angle [rad].
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "profile::angle")]
     pub angle: Option<Profile>,
     /// Moment of inertia about the axis [kg m²].
     #[serde(default)]
+    #[schemars(schema_with = "units::inertia", extend("minimum" = 0.0))]
     pub inertia: f64,
     /// External torque [N m], positive counter-clockwise.
     #[serde(default = "zero_profile")]
+    #[schemars(schema_with = "profile::torque")]
     pub torque: Profile,
+}
+
+impl Pulley {
+    /// Whether the pulley's motion is prescribed.
+    pub fn is_driver(&self) -> bool {
+        self.speed.is_some() || self.angle.is_some()
+    }
 }
 
 /// The time run.
@@ -160,10 +196,13 @@ pub struct Pulley {
 #[serde(deny_unknown_fields, default)]
 pub struct Run {
     /// End of the run [s].
+    #[schemars(schema_with = "units::time", extend("exclusiveMinimum" = 0.0))]
     pub end_time: f64,
     /// Time between rows of the history [s].
+    #[schemars(schema_with = "units::time", extend("exclusiveMinimum" = 0.0))]
     pub output_interval: f64,
     /// Aimed-at relative accuracy of speeds and tensions [-].
+    #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0, "maximum" = 0.1))]
     pub accuracy: f64,
     /// Time step.
     pub step: Step,
@@ -172,6 +211,7 @@ pub struct Run {
     /// State at time zero.
     pub start: Start,
     /// Times at which the belt's profile is recorded [s]; empty: the end.
+    #[schemars(schema_with = "units::times")]
     pub profile_times: Vec<f64>,
 }
 
@@ -180,7 +220,7 @@ pub struct Run {
 #[serde(untagged)]
 pub enum Step {
     /// Fixed [s].
-    Fixed(f64),
+    Fixed(#[schemars(schema_with = "units::time", extend("exclusiveMinimum" = 0.0))] f64),
     /// Chosen from `accuracy`.
     Named(AutoStep),
 }
@@ -241,4 +281,10 @@ fn default_points() -> usize {
 
 fn zero_profile() -> Profile {
     Profile::Constant(0.0)
+}
+
+/// Writes a count; one beyond the range of TOML's integers, which no drive may have, is cut to it.
+#[allow(clippy::trivially_copy_pass_by_ref)] // serde's signature
+fn count<S: Serializer>(count: &usize, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_i64(i64::try_from(*count).unwrap_or(i64::MAX))
 }

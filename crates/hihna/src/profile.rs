@@ -72,9 +72,9 @@ impl Profile {
     /// ```
     /// use hihna::profile::{Profile, Varying};
     ///
-    /// let speed = Profile::Varying(Varying::Ramp { from: 0.0, to: 12.0, start: 0.1, end: 0.6 });
+    /// let speed = Profile::Varying(Varying::Ramp { from: 0.0, to: 12.0, start: 0.5, end: 1.5 });
     /// assert_eq!(speed.value(0.0), 0.0);
-    /// assert_eq!(speed.value(0.35), 6.0);
+    /// assert_eq!(speed.value(1.0), 6.0);
     /// assert_eq!(speed.value(2.0), 12.0);
     /// ```
     pub fn value(&self, t: f64) -> f64 {

@@ -1,0 +1,227 @@
+//! What went wrong, for people (with the line of their file) and for programs (as JSON).
+
+use std::fmt;
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use hihna::input::{InputError, InputErrors};
+use hihna::record::RecordError;
+use hihna::simulate::RunError;
+use miette::{
+    Diagnostic, LabeledSpan, MietteHandlerOpts, NamedSource, Report, Severity, SourceCode,
+};
+use serde_json::{Value, json};
+use thiserror::Error;
+
+use crate::standard_output;
+
+/// Why the program did not do what it was asked.
+#[derive(Debug, Error)]
+pub enum Failure {
+    /// The drive is wrong.
+    #[error(transparent)]
+    Input(#[from] InputErrors),
+    /// The result folder cannot be made; nothing was run.
+    #[error(transparent)]
+    Folder(RecordError),
+    /// The run failed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The run was fine, but its result could not be written.
+    #[error(transparent)]
+    Record(RecordError),
+    /// The result is written, but its balances do not close.
+    #[error(
+        "the audit failed: the energy residual is {energy:.1e} and the torque residual {torque:.1e}, more than {tolerance:.1e} allowed"
+    )]
+    Audit {
+        /// Relative energy residual.
+        energy: f64,
+        /// Relative residual of the torque balances.
+        torque: f64,
+        /// What is allowed.
+        tolerance: f64,
+        /// Where the results are.
+        folder: PathBuf,
+    },
+    /// Standard output does not take the answer.
+    #[error("cannot write to standard output: {0}")]
+    Output(io::Error),
+    /// Ctrl-C cannot be caught.
+    #[error("cannot prepare for Ctrl-C: {0}")]
+    Signal(#[from] ctrlc::Error),
+}
+
+impl Failure {
+    /// Exit status of the program: 2 if the user's input is to blame, 1 otherwise.
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Input(_) | Self::Folder(_) | Self::Run(RunError::Assembly(_)) => {
+                ExitCode::from(2)
+            }
+            _ => ExitCode::from(1),
+        }
+    }
+
+    /// Prints the failure to standard error.
+    pub fn print(&self) {
+        match self {
+            Self::Input(errors) => {
+                for error in errors {
+                    show(Message::of_input(error));
+                }
+            }
+            failure => show(Message::new(
+                Severity::Error,
+                failure.to_string(),
+                failure.help(),
+            )),
+        }
+    }
+
+    /// Prints the failure to standard output as the one JSON object of the command.
+    pub fn print_json(&self) {
+        let errors: Vec<Value> = match self {
+            Self::Input(errors) => errors.iter().map(input_error_json).collect(),
+            // The summary is there already, and says so.
+            Self::Audit { .. } | Self::Output(_) => return,
+            failure => vec![json!({ "message": failure.to_string(), "help": failure.help() })],
+        };
+        // If this fails, too, the message on standard error is all that can be done.
+        let _ = standard_output::print_json(&json!({ "errors": errors }));
+    }
+
+    fn help(&self) -> Option<String> {
+        let text = match self {
+            Self::Run(RunError::Start { .. }) => {
+                "check the length of the belt with `hihna check`; more `belt.elements` or a lower `contact.stiffness` make the start easier"
+            }
+            Self::Run(RunError::Step { .. }) => {
+                "try more `belt.elements`, a smaller `run.accuracy`, a lower `contact.stiffness` or a gentler speed; with `--set KEY=VALUE` the file can stay as it is"
+            }
+            Self::Run(RunError::Stopped { .. }) => "nothing was written",
+            Self::Record(_) => {
+                "nothing was kept; free some space or name another place with --out, then run again"
+            }
+            Self::Audit { folder, .. } => {
+                return Some(format!(
+                    "the results in {} are not to be trusted; try a smaller `run.accuracy` or more `belt.elements`",
+                    folder.display()
+                ));
+            }
+            _ => return None,
+        };
+        Some(text.to_owned())
+    }
+}
+
+/// Prints something to know that stops nothing.
+pub fn print_warning(text: &str) {
+    show(Message::new(Severity::Warning, text.to_owned(), None));
+}
+
+fn show(message: Message) {
+    prepare_reports();
+    // If standard error does not take it, there is no place left to say so.
+    let _ = write!(io::stderr(), "{:?}", Report::new(message));
+}
+
+/// Lines wrap on a terminal; in a file or a pipe they stay whole.
+fn prepare_reports() {
+    // Only the first hook is kept, and all are equal.
+    let _ = miette::set_hook(Box::new(|_| {
+        let wrap = io::stderr().is_terminal();
+        Box::new(
+            MietteHandlerOpts::new()
+                .wrap_lines(wrap)
+                .context_lines(1)
+                .build(),
+        )
+    }));
+}
+
+fn input_error_json(error: &InputError) -> Value {
+    let problem = &error.problem;
+    let place = error.place.as_ref();
+    json!({
+        "message": problem.message,
+        "field": problem.path.to_string(),
+        "file": place.map(|place| &place.source.name),
+        "line": place.map(hihna::input::Place::line),
+        "column": place.map(hihna::input::Place::column),
+        "expected": problem.expected,
+        "help": problem.help,
+    })
+}
+
+/// A message as miette shows it.
+#[derive(Debug)]
+struct Message {
+    severity: Severity,
+    text: String,
+    help: Option<String>,
+    source: Option<NamedSource<String>>,
+    label: Option<LabeledSpan>,
+}
+
+impl Message {
+    fn new(severity: Severity, text: String, help: Option<String>) -> Self {
+        Self {
+            severity,
+            text,
+            help,
+            source: None,
+            label: None,
+        }
+    }
+
+    fn of_input(error: &InputError) -> Self {
+        let problem = &error.problem;
+        let expected = problem
+            .expected
+            .as_ref()
+            .map(|expected| format!("expected {expected}"));
+        let help: Vec<_> = expected.into_iter().chain(problem.help.clone()).collect();
+        let help = (!help.is_empty()).then(|| help.join("\n"));
+        let mut message = Self::new(Severity::Error, problem.message.clone(), help);
+        if let Some(place) = &error.place {
+            message.source = Some(NamedSource::new(
+                &place.source.name,
+                place.source.text.clone(),
+            ));
+            message.label = Some(LabeledSpan::underline(place.span.clone()));
+        }
+        message
+    }
+}
+
+impl fmt::Display for Message {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.text)
+    }
+}
+
+impl std::error::Error for Message {}
+
+impl Diagnostic for Message {
+    fn severity(&self) -> Option<Severity> {
+        Some(self.severity)
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help
+            .as_ref()
+            .map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.label
+            .clone()
+            .map(|label| Box::new(std::iter::once(label)) as Box<dyn Iterator<Item = LabeledSpan>>)
+    }
+}

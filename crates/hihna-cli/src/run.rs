@@ -1,0 +1,95 @@
+//! `hihna run`: simulate a drive and write its results.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::Args;
+use hihna::record;
+use hihna::simulate::{Flow, simulate};
+use hihna::summary::Summary;
+use serde::Serialize;
+
+use crate::diagnostics::{Failure, print_warning};
+use crate::drive_source::DriveSource;
+use crate::progress::Bar;
+use crate::{standard_output, summary};
+
+/// Simulate a drive, write a result folder and print a summary.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    source: DriveSource,
+
+    /// Folder for the results [default: the drive file's name with `-result`]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Overwrite an existing result folder
+    #[arg(long)]
+    force: bool,
+
+    /// Print one JSON object, as in `summary.json`, to standard output
+    #[arg(long)]
+    pub json: bool,
+
+    /// Show neither progress nor summary
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// What `--json` prints: the summary and where the files are.
+#[derive(Serialize)]
+struct Answer<'a> {
+    folder: String,
+    #[serde(flatten)]
+    summary: &'a Summary,
+}
+
+/// Runs, records and tells.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let drive = arguments.source.load()?;
+    let folder = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| arguments.source.default_folder());
+    record::check(&folder, arguments.force).map_err(Failure::Folder)?;
+
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))?;
+    let mut bar = Bar::new(arguments.quiet);
+    let outcome = simulate(&drive, &mut |progress| {
+        bar.update(progress);
+        if interrupted.load(Ordering::Relaxed) {
+            Flow::Stop
+        } else {
+            Flow::Continue
+        }
+    });
+    bar.finish();
+    let outcome = outcome?;
+
+    record::write(&folder, &drive, &outcome, arguments.force).map_err(Failure::Record)?;
+    let found = Summary::new(&drive, &outcome);
+    for warning in &found.warnings {
+        print_warning(warning);
+    }
+    if arguments.json {
+        standard_output::print_json(&Answer {
+            folder: folder.display().to_string(),
+            summary: &found,
+        })?;
+    } else if !arguments.quiet {
+        standard_output::print(&summary::in_words(&found, &outcome.layout, &folder))?;
+    }
+    if found.audit.passed {
+        return Ok(());
+    }
+    Err(Failure::Audit {
+        energy: found.audit.energy_residual,
+        torque: found.audit.torque_residual,
+        tolerance: found.audit.tolerance,
+        folder,
+    })
+}
