@@ -3,3 +3,4 @@
 pub mod drive;
 pub mod layout;
 pub mod profile;
+pub mod steady;

@@ -1,0 +1,3 @@
+//! Steady running: what a belt drive settles to, found without stepping through time.
+
+pub mod string;
