@@ -155,10 +155,12 @@ pub enum StringError {
         count: usize,
     },
     /// A quantity out of its range.
-    #[error("{quantity} is {value}: it must be {wanted}")]
+    #[error("the {quantity}{} is {value}: it must be {wanted}", of_pulley(*.pulley))]
     OutOfRange {
-        /// The quantity.
-        quantity: String,
+        /// The quantity with its unit.
+        quantity: &'static str,
+        /// The pulley that it belongs to.
+        pulley: Option<usize>,
         /// Its value, SI.
         value: f64,
         /// What it must be.
@@ -240,34 +242,28 @@ impl<D: Number> StringDrive<D> {
                 count: self.pulleys.len(),
             });
         }
-        above_zero(self.axial_stiffness, || "the axial stiffness [N]".into())?;
-        not_negative(self.line_density, || "the line density [kg/m]".into())?;
+        above_zero(self.axial_stiffness, "axial stiffness [N]", None)?;
+        not_negative(self.line_density, "line density [kg/m]", None)?;
         match self.tightness {
             Tightness::UnstretchedLength(length) => {
-                above_zero(length, || "the unstretched length [m]".into())?;
+                above_zero(length, "unstretched length [m]", None)?
             }
-            Tightness::InitialTension(force) => finite(force, || "the initial tension [N]".into())?,
+            Tightness::InitialTension(force) => finite(force, "initial tension [N]", None)?,
         }
         let mut controlled = None;
         let mut count = 0;
         for (i, p) in self.pulleys.iter().enumerate() {
-            above_zero(p.radius, || format!("the radius of pulley {i} [m]"))?;
-            above_zero(p.wrap_angle, || {
-                format!("the wrap angle of pulley {i} [rad]")
-            })?;
-            not_negative(p.friction, || {
-                format!("the friction coefficient of pulley {i}")
-            })?;
-            not_negative(p.span, || format!("the span behind pulley {i} [m]"))?;
+            above_zero(p.radius, "radius [m]", Some(i))?;
+            above_zero(p.wrap_angle, "wrap angle [rad]", Some(i))?;
+            not_negative(p.friction, "friction coefficient", Some(i))?;
+            not_negative(p.span, "length of the span behind [m]", Some(i))?;
             match p.role {
                 Role::SpeedControlled(speed) => {
-                    above_zero(speed, || format!("the speed of pulley {i} [rad/s]"))?;
+                    above_zero(speed, "speed along the belt's motion [rad/s]", Some(i))?;
                     controlled = Some(i);
                     count += 1;
                 }
-                Role::Torque(torque) => {
-                    finite(torque, || format!("the torque on pulley {i} [N m]"))?;
-                }
+                Role::Torque(torque) => finite(torque, "torque [N m]", Some(i))?,
             }
         }
         controlled
@@ -276,31 +272,51 @@ impl<D: Number> StringDrive<D> {
     }
 }
 
-fn above_zero<D: Number>(value: D, quantity: impl Fn() -> String) -> Result<(), StringError> {
+fn of_pulley(pulley: Option<usize>) -> String {
+    pulley.map_or_else(String::new, |i| format!(" of pulley {i}"))
+}
+
+type Checked = Result<(), StringError>;
+
+fn above_zero<D: Number>(value: D, quantity: &'static str, pulley: Option<usize>) -> Checked {
     let fine = value.re().is_finite() && value.re() > 0.0;
-    require(fine, value.re(), quantity, "finite and above zero")
+    require(fine, value.re(), quantity, pulley, "finite and above zero")
 }
 
-fn not_negative<D: Number>(value: D, quantity: impl Fn() -> String) -> Result<(), StringError> {
+fn not_negative<D: Number>(value: D, quantity: &'static str, pulley: Option<usize>) -> Checked {
     let fine = value.re().is_finite() && value.re() >= 0.0;
-    require(fine, value.re(), quantity, "finite and not negative")
+    require(
+        fine,
+        value.re(),
+        quantity,
+        pulley,
+        "finite and not negative",
+    )
 }
 
-fn finite<D: Number>(value: D, quantity: impl Fn() -> String) -> Result<(), StringError> {
-    require(value.re().is_finite(), value.re(), quantity, "finite")
+fn finite<D: Number>(value: D, quantity: &'static str, pulley: Option<usize>) -> Checked {
+    require(
+        value.re().is_finite(),
+        value.re(),
+        quantity,
+        pulley,
+        "finite",
+    )
 }
 
 fn require(
     fine: bool,
     value: f64,
-    quantity: impl Fn() -> String,
+    quantity: &'static str,
+    pulley: Option<usize>,
     wanted: &'static str,
-) -> Result<(), StringError> {
+) -> Checked {
     if fine {
         Ok(())
     } else {
         Err(StringError::OutOfRange {
-            quantity: quantity(),
+            quantity,
+            pulley,
             value,
             wanted,
         })

@@ -136,19 +136,25 @@ struct Zones<D> {
 impl<D: Number> Running<D> {
     /// The belt on pulley `pulley`, `angle` [rad] behind its inlet, at most the wrap angle.
     pub fn on_pulley(&self, pulley: usize, angle: D) -> BeltState<D> {
-        let (state, zones) = (&self.pulleys[pulley], &self.zones);
-        let stretch_in = state.strain_in + 1.0;
+        let state = &self.pulleys[pulley];
         let slipped = angle - state.stick_angle;
         if slipped.re() <= 0.0 {
-            let length = angle * state.radius / stretch_in;
+            let length = angle * state.radius / (state.strain_in + 1.0);
             return self.belt_state(state, state.strain_in, D::zero(), length);
         }
+        self.in_slip_zone(pulley, slipped)
+    }
+
+    /// The belt in the slip zone of pulley `pulley`, `slipped` [rad] behind the zone's beginning. There, where friction jumps
+    /// from zero to full, it is the side of the slip zone that is given.
+    pub fn in_slip_zone(&self, pulley: usize, slipped: D) -> BeltState<D> {
+        let (state, zones) = (&self.pulleys[pulley], &self.zones);
+        let stretch_in = state.strain_in + 1.0;
         let growth = (slipped * state.growth).exp_m1();
         let strain = state.strain_in + zones.pressure(state.strain_in) * growth / zones.pressing;
         let rise = ((strain - state.strain_in) / stretch_in).ln_1p();
-        let length = (state.stick_angle / stretch_in
-            + (slipped - rise / state.growth) * zones.pressing)
-            * state.radius;
+        let passed = (slipped - rise / state.growth) * zones.pressing;
+        let length = (state.stick_angle / stretch_in + passed) * state.radius;
         let direction = if state.growth.re() < 0.0 { 1.0 } else { -1.0 };
         self.belt_state(state, strain, state.friction * direction, length)
     }

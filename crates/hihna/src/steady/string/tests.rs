@@ -370,14 +370,15 @@ fn bad_input_is_named() {
     assert!(refuse(|d| d.pulleys.truncate(1)).contains("two pulleys"));
     assert!(refuse(|d| d.axial_stiffness = 0.0).contains("axial stiffness"));
     assert!(refuse(|d| d.line_density = f64::NAN).contains("line density"));
-    assert!(refuse(|d| d.pulleys[1].radius = -1.0).contains("radius of pulley 1"));
-    assert!(refuse(|d| d.pulleys[0].wrap_angle = 0.0).contains("wrap angle of pulley 0"));
+    assert!(refuse(|d| d.pulleys[1].radius = -1.0).contains("radius [m] of pulley 1"));
+    assert!(refuse(|d| d.pulleys[0].wrap_angle = 0.0).contains("wrap angle [rad] of pulley 0"));
     assert!(refuse(|d| d.pulleys[0].friction = -0.1).contains("friction coefficient of pulley 0"));
     assert!(
-        refuse(|d| d.pulleys[0].role = Role::SpeedControlled(0.0)).contains("speed of pulley 0")
+        refuse(|d| d.pulleys[0].role = Role::SpeedControlled(0.0)).contains("[rad/s] of pulley 0")
     );
     assert!(
-        refuse(|d| d.pulleys[1].role = Role::Torque(f64::INFINITY)).contains("torque on pulley 1")
+        refuse(|d| d.pulleys[1].role = Role::Torque(f64::INFINITY))
+            .contains("torque [N m] of pulley 1")
     );
     assert!(refuse(|d| d.pulleys[0].role = Role::Torque(1.0)).contains("0 pulleys"));
     assert!(refuse(|d| d.pulleys[1].role = Role::SpeedControlled(1.0)).contains("2 pulleys"));
