@@ -246,7 +246,7 @@ impl<D: Number> StringDrive<D> {
         not_negative(self.line_density, "line density [kg/m]", None)?;
         match self.tightness {
             Tightness::UnstretchedLength(length) => {
-                above_zero(length, "unstretched length [m]", None)?
+                above_zero(length, "unstretched length [m]", None)?;
             }
             Tightness::InitialTension(force) => finite(force, "initial tension [N]", None)?,
         }
