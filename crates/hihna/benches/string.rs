@@ -1,4 +1,5 @@
-//! Time of one solution of the string theory: two pulleys (aim 5 us), ten pulleys (aim 100 us), with all derivatives.
+//! Time of one solution of the string theory: two pulleys (aim 5 us), ten pulleys (aim 100 us),
+//! with all derivatives.
 //!
 //! `cargo bench -p hihna --bench string`
 

@@ -7,20 +7,21 @@
 //! ```text
 //! L = sqrt(|D|² - h²),   t = D (L - i h) / |D|²,   p_A = c_A - sigma_A R_A i t,   p_B = p_A + L t,
 //! ```
-//! because `c = p + sigma R i t` on both circles. The wrap angle (sweep) of a pulley is the turn from the
-//! incoming to the outgoing tangent, taken in the sense `sigma`, so `0 < sigma sweep < 2 pi`.
+//! because `c = p + sigma R i t` on both circles. The wrap angle (sweep) of a pulley is the turn
+//! from the incoming to the outgoing tangent, taken in the sense `sigma`, so `0 < sigma sweep < 2
+//! pi`.
 //!
 //! # Sense of running along the list
 //!
-//! `sigma = sense` on pulleys inside the loop, `-sense` on pulleys outside of it. For three and more pulleys the
-//! sense is the one whose path is a simple closed curve: total turning `2 pi sense`, no span crossing another,
-//! none running through a pulley. Counter-clockwise is tried first.
-//! Two pulleys can be walked either way; they are walked counter-clockwise (`sense = +1`). Two pulleys, one inside and one
-//! outside, are a crossed belt: its total turning is zero and its two spans cross. The counter-clockwise pulley is
-//! then the inside one.
+//! `sigma = sense` on pulleys inside the loop, `-sense` on pulleys outside of it. For three and
+//! more pulleys the sense is the one whose path is a simple closed curve: total turning `2 pi
+//! sense`, no span crossing another, none running through a pulley. Counter-clockwise is tried
+//! first. Two pulleys can be walked either way; they are walked counter-clockwise (`sense = +1`).
+//! Two pulleys, one inside and one outside, are a crossed belt: its total turning is zero and its
+//! two spans cross. The counter-clockwise pulley is then the inside one.
 //!
-//! The path coordinate `s` starts at mid-wrap of the first pulley and grows in the order of the list. It says
-//! nothing about the direction in which the belt moves.
+//! The path coordinate `s` starts at mid-wrap of the first pulley and grows in the order of the
+//! list. It says nothing about the direction in which the belt moves.
 
 use std::f64::consts::{PI, TAU};
 
@@ -38,7 +39,8 @@ const SMALLEST_WRAP: f64 = 1.0e-9;
 pub struct Layout {
     /// The wrapped arcs; `arcs[i]` lies on pulley `i`.
     pub arcs: Vec<Arc>,
-    /// The free spans; `spans[i]` runs from pulley `i` to pulley `i + 1`, the last one back to the first.
+    /// The free spans; `spans[i]` runs from pulley `i` to pulley `i + 1`, the last one back to the
+    /// first.
     pub spans: Vec<Span>,
     /// Total length of the path [m].
     pub length: f64,
@@ -59,7 +61,8 @@ pub struct Arc {
     pub start_angle: f64,
     /// Wrap angle, positive counter-clockwise [rad].
     pub sweep: f64,
-    /// Path coordinate of the first contact point [m]; negative for the first pulley, whose middle has `s = 0`.
+    /// Path coordinate of the first contact point [m]; negative for the first pulley, whose middle
+    /// has `s = 0`.
     pub start: f64,
     /// Length of the arc [m].
     pub length: f64,
@@ -105,7 +108,8 @@ pub enum Place {
 }
 
 impl Layout {
-    /// Lays a belt around `pulleys`, in their order, and finds the sense of running (see the module's head).
+    /// Lays a belt around `pulleys`, in their order, and finds the sense of running (see the
+    /// module's head).
     pub fn new(pulleys: &[Pulley]) -> Result<Self, LayoutError> {
         check_pulleys(pulleys)?;
         let counter_clockwise = Self::walk(pulleys, 1.0);
@@ -120,7 +124,8 @@ impl Layout {
         }
     }
 
-    /// The point at path coordinate `s` [m], which wraps around the loop; `s = 0` is mid-wrap of the first pulley.
+    /// The point at path coordinate `s` [m], which wraps around the loop; `s = 0` is mid-wrap of
+    /// the first pulley.
     pub fn point(&self, s: f64) -> PathPoint {
         let first = self.arcs[0].start;
         let s = first + (s - first).rem_euclid(self.length);
@@ -250,8 +255,8 @@ struct Tangent {
 }
 
 impl Tangent {
-    /// From pulley `a` to pulley `b`, which the belt turns about in the senses `side_a` and `side_b`. The circles do not
-    /// overlap, so |h| <= R_A + R_B < |D|.
+    /// From pulley `a` to pulley `b`, which the belt turns about in the senses `side_a` and
+    /// `side_b`. The circles do not overlap, so |h| <= R_A + R_B < |D|.
     fn between(a: &Pulley, side_a: f64, b: &Pulley, side_b: f64) -> Self {
         let d = [b.center[0] - a.center[0], b.center[1] - a.center[1]];
         let h = side_b * b.radius - side_a * a.radius;
@@ -348,8 +353,9 @@ fn sweep(
     })
 }
 
-/// The path must be a simple loop: its total turning one full turn, no span blocked, none crossing another. A pulley that the belt only reaches by running right around it is on the
-/// wrong side of the belt.
+/// The path must be a simple loop: its total turning one full turn, no span blocked, none crossing
+/// another. A pulley that the belt only reaches by running right around it is on the wrong side of
+/// the belt.
 fn check_path(
     pulleys: &[Pulley],
     tangents: &[Tangent],
@@ -447,8 +453,8 @@ fn check_spans(pulleys: &[Pulley], tangents: &[Tangent]) -> Result<(), LayoutErr
     Ok(())
 }
 
-/// Twice the signed area of the polygon of centres, of the inside pulleys where there are three: says which sense an error
-/// message should speak of.
+/// Twice the signed area of the polygon of centres, of the inside pulleys where there are three:
+/// says which sense an error message should speak of.
 fn center_area(pulleys: &[Pulley]) -> f64 {
     let inside: Vec<[f64; 2]> = pulleys
         .iter()

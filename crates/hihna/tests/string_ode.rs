@@ -6,9 +6,10 @@
 //! centrifugal:           k dlambda = ±mu (T - G v) dtheta
 //! capstan:               k dlambda = ±mu T dtheta,            T = k (lambda - 1), v = v0 lambda
 //! ```
-//! are integrated by diffsol's Runge-Kutta 5(4) at tolerance 1e-13, from the speed with which the belt arrives to the end of
-//! the slip zone. The stretch there must be that of the next span, and the parts must add up to the belt's unstretched
-//! length, both to 1e-10 relative: the integrator's tolerance times some hundred steps, with a decade to spare.
+//! are integrated by diffsol's Runge-Kutta 5(4) at tolerance 1e-13, from the speed with which the
+//! belt arrives to the end of the slip zone. The stretch there must be that of the next span, and
+//! the parts must add up to the belt's unstretched length, both to 1e-10 relative: the integrator's
+//! tolerance times some hundred steps, with a decade to spare.
 
 use std::f64::consts::PI;
 

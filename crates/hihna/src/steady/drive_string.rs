@@ -1,9 +1,12 @@
-//! A drive as the string theory sees it, and the theory's answer in the drive's own terms: names, signs, order.
+//! A drive as the string theory sees it, and the theory's answer in the drive's own terms: names,
+//! signs, order.
 //!
-//! Speeds and torques are those that the drive's profiles end with. The belt moves as the surface of the speed-controlled pulley does; the
-//! string theory counts pulleys in that direction, the drive in the order of its list. Axial stiffness `k = axial_factor E A`, line density
-//! `rho A`; tension at rest and unstretched length are tied by the string's law `T = k (L/L0 - 1)` on the path of rigid pulleys.
-//! Bending, shear, penetration and the creep slope of the friction law have no place in this theory.
+//! Speeds and torques are those that the drive's profiles end with. The belt moves as the surface
+//! of the speed-controlled pulley does; the string theory counts pulleys in that direction, the
+//! drive in the order of its list. Axial stiffness `k = axial_factor E A`, line density `rho A`;
+//! tension at rest and unstretched length are tied by the string's law `T = k (L/L0 - 1)` on the
+//! path of rigid pulleys. Bending, shear, penetration and the creep slope of the friction law have
+//! no place in this theory.
 
 use crate::drive::{Belt, Drive, Friction, Pulley};
 use crate::layout::{Layout, LayoutError};
@@ -41,7 +44,8 @@ pub struct PulleySummary {
     pub external_torque: f64,
     /// Power of the external torque, negative where power is taken out [W].
     pub power: f64,
-    /// Force of the belt on the pulley [N]; with model `centrifugal` without the stretching acceleration's small share.
+    /// Force of the belt on the pulley [N]; with model `centrifugal` without the stretching
+    /// acceleration's small share.
     pub hub_force: [f64; 2],
     /// Speed of the belt at the exit less that of the surface, positive along the belt's motion [m/s].
     pub slip_speed: f64,
@@ -290,7 +294,8 @@ impl DriveString {
         )
     }
 
-    /// `+1` where a pulley turns counter-clockwise with the belt, `-1` where clockwise; by its index in the drive.
+    /// `+1` where a pulley turns counter-clockwise with the belt, `-1` where clockwise; by its
+    /// index in the drive.
     pub fn rotation(&self, pulley: usize) -> f64 {
         self.direction * self.layout.arcs[pulley].sweep.signum()
     }

@@ -1,12 +1,13 @@
 //! The belt of a steadily running drive, point by point: the rows of `profile.csv`.
 //!
-//! Rows follow the belt from mid-wrap of the first pulley in the order of the drive's list. Where a force jumps (inlet, exit, beginning of a slip
-//! zone) there are two rows, one for each side. With the stretch `lambda` the strain measures of the string are
+//! Rows follow the belt from mid-wrap of the first pulley in the order of the drive's list. Where a
+//! force jumps (inlet, exit, beginning of a slip zone) there are two rows, one for each side. With
+//! the stretch `lambda` the strain measures of the string are
 //! ```text
 //! Green (lambda² - 1)/2,   engineering lambda - 1,   true 1 - 1/lambda (4.10),   Almansi (1 - 1/lambda²)/2,   jacobian lambda.
 //! ```
-//! Contact forces are per length of the unstretched belt, as the finite elements have them (THEORY 2.2, eq. 3.20): lambda times
-//! those per length of the running belt.
+//! Contact forces are per length of the unstretched belt, as the finite elements have them (THEORY
+//! 2.2, eq. 3.20): lambda times those per length of the running belt.
 
 use serde::Serialize;
 
@@ -43,7 +44,8 @@ pub struct ProfileRow {
     pub speed: f64,
     /// Force of the pulley on the belt, away from its centre, per unstretched length [N/m].
     pub normal_force: f64,
-    /// Force of the pulley on the belt, positive along growing material coordinate, per unstretched length [N/m].
+    /// Force of the pulley on the belt, positive along growing material coordinate, per unstretched
+    /// length [N/m].
     pub friction_force: f64,
     /// Belt speed less surface speed, positive along growing material coordinate [m/s].
     pub slip_speed: f64,
@@ -51,7 +53,8 @@ pub struct ProfileRow {
     pub pulley: Option<String>,
 }
 
-/// A part of an arc in which nothing jumps, `from` and `to` measured from the arc's first point of the path [rad].
+/// A part of an arc in which nothing jumps, `from` and `to` measured from the arc's first point of
+/// the path [rad].
 struct Zone {
     from: f64,
     to: f64,

@@ -1,18 +1,22 @@
 //! The extensible string with inertia: a belt drive's steady running in closed form but for one number.
 //!
-//! Source: Bechtel, Vohra, Jacob & Carlson (2000), as summarised in Kerkkänen (2006), section 4.1, equations (4.1)-(4.4)
-//! and (4.48), there for two pulleys; here for any number of them. Equations are numbered as in the theory manual.
+//! Source: Bechtel, Vohra, Jacob & Carlson (2000), as summarised in Kerkkänen (2006), section 4.1,
+//! equations (4.1)-(4.4) and (4.48), there for two pulleys; here for any number of them. Equations
+//! are numbered as in the theory manual.
 //!
-//! Steady running: the mass flow `G = m v0` is the same everywhere (`m` mass per unstretched length, `v0` the speed the belt has
-//! where it is unstretched). With the stretch `lambda = 1 + eps`, axial stiffness `k`, belt speed `v`, axial force `T`:
+//! Steady running: the mass flow `G = m v0` is the same everywhere (`m` mass per unstretched
+//! length, `v0` the speed the belt has where it is unstretched). With the stretch `lambda = 1 +
+//! eps`, axial stiffness `k`, belt speed `v`, axial force `T`:
 //! ```text
 //! v = v0 lambda,   T = k eps                                                                      (S1)
 //! c = m v0² / k                                                                                   (S2)
 //! N = T - G v = k [(1 - c_n) lambda - 1],    P = k [(1 - c_p) lambda - 1]                         (S3)
 //! ```
-//! `N` presses the belt on a pulley, `P` balances friction: on a pulley of radius R with coefficient `mu`, `theta` along the motion,
+//! `N` presses the belt on a pulley, `P` balances friction: on a pulley of radius R with
+//! coefficient `mu`, `theta` along the motion,
 //! ```text
-//! stick: dP = 0, v = R omega;    slip: dP = ±mu N dtheta  =>  N = N_in exp(±mu' theta),  mu' = mu (1 - c_n)/(1 - c_p)   (S4)
+//! stick: dP = 0, v = R omega
+//! slip:  dP = ±mu N dtheta  =>  N = N_in exp(±mu' theta),   mu' = mu (1 - c_n)/(1 - c_p)           (S4)
 //! ```
 //! | model | c_n | c_p | equation of the slip zone |
 //! |---|---|---|---|
@@ -20,14 +24,16 @@
 //! | centrifugal (no stretching acceleration) | c | 0 | dT = ±mu (T - G v) dtheta |
 //! | capstan (no inertia) | 0 | 0 | dT = ±mu T dtheta |
 //!
-//! The belt sticks to each pulley where it arrives and slips at the exit; so each pulley has the speed of the span before it. In free spans
-//! `T` and `v` are constant. An external torque M (along the pulley's rotation) is balanced by friction, and it spreads over the slip angle phi:
+//! The belt sticks to each pulley where it arrives and slips at the exit; so each pulley has the
+//! speed of the span before it. In free spans `T` and `v` are constant. An external torque M (along
+//! the pulley's rotation) is balanced by friction, and it spreads over the slip angle phi:
 //! ```text
 //! R (P_in - P_out) = M                                                                            (S5)
 //! phi = |ln(N_out / N_in)| / mu' <= wrap angle                                                    (S6)
 //! ```
-//! The torques give all P up to one constant. It is the stretch `eps` of the span that arrives at the speed-controlled pulley (surface speed V), which
-//! also gives `c = (m V²/k) / (1 + eps)²`, and it follows from the closure, one of
+//! The torques give all P up to one constant. It is the strain `eps` of the span that arrives at
+//! the speed-controlled pulley (surface speed V), which also gives `c = (m V²/k) / (1 + eps)²`, and
+//! it follows from the closure, one of
 //! ```text
 //! unstretched length:  ∮ eps/lambda ds = L - L0                                                   (S7)
 //! tension sum:         mean of T over the spans = T_init   (two pulleys: T_t + T_s = 2 T_init)    (S8)
@@ -37,16 +43,18 @@
 //! ```text
 //! ∫ eps/lambda ds = R [ (wrap - phi) eps_in/lambda_in + c_n phi + (1 - c_n) sigma q / mu' ].      (S10)
 //! ```
-//! Stretches and their differences are carried, never differences of speeds, so stiff belts lose no digits. All torques times
-//! a factor `s` bring a pulley to gross slip (phi = wrap) when, with `N_t` before the speed-controlled pulley and `d = (P - P_t)/k` at
-//! the pulley's tighter and slacker side,
+//! Strains and their differences are carried, never differences of speeds, so stiff belts lose no
+//! digits. All torques times a factor `s` bring a pulley to gross slip (phi = wrap) when, with
+//! `N_t` before the speed-controlled pulley and `d = (P - P_t)/k` at the pulley's tighter and
+//! slacker side,
 //! ```text
 //! s = (N_t/k)(1 - E) / [(E d_high - d_low)(1 - c_n)/(1 - c_p)],   E = exp(-mu' wrap);             (S11)
 //! ```
-//! the least over the pulleys, put into the closure, gives the largest torque that the drive can carry, again from one equation.
+//! the least over the pulleys, put into the closure, gives the largest torque that the drive can
+//! carry, again from one equation.
 //!
-//! Everything is generic over [`Number`]: with dual numbers all results carry exact derivatives by whatever inputs are seeded
-//! (the root by implicit differentiation, see [`sensitivity`]).
+//! Everything is generic over [`Number`]: with dual numbers all results carry exact derivatives by
+//! whatever inputs are seeded (the root by implicit differentiation, see [`sensitivity`]).
 
 mod closure;
 pub mod sensitivity;
@@ -99,7 +107,8 @@ pub struct StringPulley<D = f64> {
 pub enum Role<D = f64> {
     /// Angular speed, positive along the belt's motion [rad/s]; its torque is found.
     SpeedControlled(D),
-    /// External torque [N m], positive along the pulley's rotation: negative brakes, zero is an idler; its speed is found.
+    /// External torque [N m], positive along the pulley's rotation: negative brakes, zero is an
+    /// idler; its speed is found.
     Torque(D),
 }
 
@@ -130,7 +139,8 @@ pub enum Closure {
     /// The belt's unstretched length: the elastic belt on fixed centres.
     #[default]
     UnstretchedLength,
-    /// The mean of the spans' tensions, each span counted once: for two pulleys the classical `T_t + T_s = 2 T_init`.
+    /// The mean of the spans' tensions, each span counted once: for two pulleys the classical `T_t
+    /// + T_s = 2 T_init`.
     TensionSum,
 }
 

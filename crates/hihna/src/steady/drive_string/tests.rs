@@ -112,8 +112,9 @@ fn mirrored(drive: &Drive) -> Drive {
     drive
 }
 
-/// The speed loss printed for Model 2, and the tight span: the driver at the left turns counter-clockwise, so the upper span runs towards
-/// it (THEORY 2.2): in belt order that is "driven-driver".
+/// The speed loss printed for Model 2, and the tight span: the driver at the left turns
+/// counter-clockwise, so the upper span runs towards it (THEORY 2.2): in belt order that is
+/// "driven-driver".
 #[test]
 fn model_2_from_a_drive_file() {
     let prepared = full(&model_2());
@@ -128,7 +129,8 @@ fn model_2_from_a_drive_file() {
     assert!(pulleys[0].hub_force[0] > 0.0);
 }
 
-/// Mirrored in the x axis and run backwards: the same tensions, mirrored hub forces, opposite speeds and torques.
+/// Mirrored in the x axis and run backwards: the same tensions, mirrored hub forces, opposite
+/// speeds and torques.
 #[test]
 fn a_mirrored_drive_gives_the_mirrored_answer() {
     for drive in [model_2(), serpentine()] {
@@ -147,7 +149,8 @@ fn a_mirrored_drive_gives_the_mirrored_answer() {
     }
 }
 
-/// The belt is in steady motion on a closed path: forces and moments of the pulleys on it sum to zero, run either way.
+/// The belt is in steady motion on a closed path: forces and moments of the pulleys on it sum to
+/// zero, run either way.
 #[test]
 fn hub_forces_and_torques_balance() {
     for drive in [model_2(), serpentine(), backwards(&serpentine())] {
@@ -166,8 +169,9 @@ fn hub_forces_and_torques_balance() {
     }
 }
 
-/// The rows of the profile: the material coordinate grows from zero to the unstretched length, friction integrates to the pulleys'
-/// torques, positions to the path. Trapezoid rule with 4000 rows on zones of some 100 rows: 1e-5.
+/// The rows of the profile: the material coordinate grows from zero to the unstretched length,
+/// friction integrates to the pulleys' torques, positions to the path. Trapezoid rule with 4000
+/// rows on zones of some 100 rows: 1e-5.
 #[test]
 fn profile_rows_integrate_to_the_torques() {
     for drive in [

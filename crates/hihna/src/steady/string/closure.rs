@@ -1,4 +1,5 @@
-//! The one equation of the string: which stretch of the span before the speed-controlled pulley closes the belt, (S7)-(S11).
+//! The one equation of the string: which stretch of the span before the speed-controlled pulley
+//! closes the belt, (S7)-(S11).
 
 use num_dual::Dual64;
 
@@ -82,8 +83,8 @@ pub(super) enum Roots {
 
 /// Newton's method stops at steps below this, relative: the next step would be far below round-off.
 const LAST_STEP: f64 = 1.0e-12;
-/// Where the slackest span barely presses, the residual is so steep that steps are short far from the root; a root also has a
-/// residual below this, relative to the strain at rest.
+/// Where the slackest span barely presses, the residual is so steep that steps are short far from
+/// the root; a root also has a residual below this, relative to the strain at rest.
 const LARGEST_RESIDUAL: f64 = 1.0e-8;
 /// Bisection alone needs 60 to 1100 halvings from any start; Newton takes over after a few.
 const MOST_ITERATIONS: usize = 1200;
@@ -113,7 +114,8 @@ impl<D: Number> Loop<D> {
                 behind: D::zero(),
             });
         }
-        // P falls by `pull` over each pulley and is zero, relative, when it arrives at the first one again.
+        // P falls by `pull` over each pulley and is zero, relative, when it arrives at the first
+        // one again.
         let mut level = D::zero();
         for station in stations.iter_mut().skip(1).rev() {
             station.behind = level;
@@ -193,8 +195,8 @@ impl<D: Number> Loop<D> {
         }
     }
 
-    /// The level at a root, with the derivatives that the inputs carry: chord steps with the real slope, each gains
-    /// one order.
+    /// The level at a root, with the derivatives that the inputs carry: chord steps with the real
+    /// slope, each gains one order.
     pub(super) fn running_level(&self, root: Root) -> Level<D> {
         let mut strain = D::from(root.strain);
         for _ in 0..D::NDERIV {
@@ -334,7 +336,8 @@ impl<D: Number> Loop<D> {
         station.radius * (stick + slip)
     }
 
-    /// (S11): the factor on all torques at which the first pulley slips over its whole wrap, and that pulley's station.
+    /// (S11): the factor on all torques at which the first pulley slips over its whole wrap, and
+    /// that pulley's station.
     fn limit(&self, level: &Level<D>) -> (D, usize) {
         let pressure = self.pressure(level, level.strain);
         let mut least = (D::from(f64::INFINITY), 0);
@@ -399,8 +402,9 @@ impl Loop<Dual64> {
         self.capacity_residual_at(Dual64::new(strain, 1.0))
     }
 
-    /// The strain at which the mean tension of the spans is that at rest, moved to where every span presses: with
-    /// `b = m V²/k` and `d` the least of (P - P_t)/k, `lambda - b/lambda - 1 + d > 0` suffices in all models.
+    /// The strain at which the mean tension of the spans is that at rest, moved to where every span
+    /// presses: with `b = m V²/k` and `d` the least of (P - P_t)/k, `lambda - b/lambda - 1 + d > 0`
+    /// suffices in all models.
     fn starting_strain(&self) -> f64 {
         let behind =
             |pick: fn(f64, f64) -> f64| self.stations.iter().map(|s| s.behind.re).fold(0.0, pick);
@@ -417,9 +421,10 @@ impl Loop<Dual64> {
     }
 }
 
-/// Newton's method inside a shrinking bracket, until its step or the bracket is a matter of round-off. `evaluate` gives
-/// residual and slope, nothing below the domain; the residual rises through zero and is of the size of `scale` away from
-/// it. The error is the last strain tried: the residual jumps over zero there.
+/// Newton's method inside a shrinking bracket, until its step or the bracket is a matter of
+/// round-off. `evaluate` gives residual and slope, nothing below the domain; the residual rises
+/// through zero and is of the size of `scale` away from it. The error is the last strain tried: the
+/// residual jumps over zero there.
 fn find_root(
     start: f64,
     scale: f64,

@@ -1,10 +1,12 @@
 //! Derivatives of all results by all inputs, exact to round-off.
 //!
-//! The root x of the closure F(x, p) = 0 is differentiated implicitly, dx/dp = -F_p/F_x: one Newton step in dual numbers from
-//! the real root. Everything behind the root is explicit in x and p and carries the dual part along.
+//! The root x of the closure F(x, p) = 0 is differentiated implicitly, dx/dp = -F_p/F_x: one Newton
+//! step in dual numbers from the real root. Everything behind the root is explicit in x and p and
+//! carries the dual part along.
 //!
-//! Results have kinks where a slip zone changes its end: at zero torque the slip angle is |M| times something (its derivative for
-//! growing torque is given), and where two pulleys reach gross slip together the capacity follows the first.
+//! Results have kinks where a slip zone changes its end: at zero torque the slip angle is |M| times
+//! something (its derivative for growing torque is given), and where two pulleys reach gross slip
+//! together the capacity follows the first.
 
 use std::fmt;
 
@@ -16,8 +18,9 @@ use super::{Number, Role, Running, StringDrive, StringError, Tightness, state};
 /// Results of a running drive and their derivatives by its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Names of the inputs: `axial_stiffness`, `line_density`, `unstretched_length` or `initial_tension`, then
-    /// `pulley.<i>.radius`, `.wrap_angle`, `.friction`, `.torque` or `.speed`, `.span`.
+    /// Names of the inputs: `axial_stiffness`, `line_density`, `unstretched_length` or
+    /// `initial_tension`, then `pulley.<i>.radius`, `.wrap_angle`, `.friction`, `.torque` or
+    /// `.speed`, `.span`.
     pub inputs: Vec<String>,
     /// Names of the results: those of [`Running`] and its parts.
     pub results: Vec<String>,
@@ -28,7 +31,8 @@ pub struct Sensitivity {
 }
 
 impl StringDrive {
-    /// Derivatives of all results by all inputs; nothing where the drive does not run (see [`StringDrive::solve`]).
+    /// Derivatives of all results by all inputs; nothing where the drive does not run (see
+    /// [`StringDrive::solve`]).
     pub fn sensitivity(&self) -> Result<Option<Sensitivity>, StringError> {
         let driver = self.check()?;
         let belt = Loop::new(self, driver);

@@ -3,7 +3,8 @@
 use super::closure::{Level, Loop, Root, Station};
 use super::{Number, Role, StringDrive};
 
-/// A drive that runs. Pulleys and spans in the order of [`StringDrive::pulleys`]; span `i` follows pulley `i`.
+/// A drive that runs. Pulleys and spans in the order of [`StringDrive::pulleys`]; span `i` follows
+/// pulley `i`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Running<D = f64> {
     /// Pulley by pulley.
@@ -24,8 +25,8 @@ pub struct Running<D = f64> {
     pub friction_loss: D,
     /// Power out over power in [-]; nothing where no power is fed in.
     pub efficiency: Option<D>,
-    /// Where gross slip begins if all torques grow in proportion; nothing where no torque is transmitted. Its `factor` is
-    /// the safety against gross slip.
+    /// Where gross slip begins if all torques grow in proportion; nothing where no torque is
+    /// transmitted. Its `factor` is the safety against gross slip.
     pub capacity: Option<Capacity<D>>,
     zones: Zones<D>,
 }
@@ -61,7 +62,8 @@ pub struct PulleyState<D = f64> {
 pub struct SpanState<D = f64> {
     /// Axial force T [N].
     pub tension: D,
-    /// Axial force less momentum flow, T - G v (model capstan: T): it presses the belt on the pulleys and loads their hubs [N].
+    /// Axial force less momentum flow, T - G v (model capstan: T): it presses the belt on the
+    /// pulleys and loads their hubs [N].
     pub pressing_tension: D,
     /// Belt speed [m/s].
     pub speed: D,
@@ -74,7 +76,8 @@ pub struct SpanState<D = f64> {
 pub struct Capacity<D = f64> {
     /// Factor on all torques: safety against gross slip [-].
     pub factor: D,
-    /// The pulley that slips first; of several at once, the first in belt order from the speed-controlled one.
+    /// The pulley that slips first; of several at once, the first in belt order from the
+    /// speed-controlled one.
     pub pulley: usize,
     /// Torque on that pulley when it slips: the largest that it transmits [N m].
     pub torque: D,
@@ -85,7 +88,8 @@ pub struct Capacity<D = f64> {
 /// The torques are too large: a pulley cannot stick anywhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrossSlip<D = f64> {
-    /// Slip angle that the torques need on pulley `capacity.pulley`, more than its wrap; infinite where no tension would do [rad].
+    /// Slip angle that the torques need on pulley `capacity.pulley`, more than its wrap; infinite
+    /// where no tension would do [rad].
     pub slip_angle: D,
     /// Wrap angle of that pulley [rad].
     pub wrap_angle: D,
@@ -145,8 +149,9 @@ impl<D: Number> Running<D> {
         self.in_slip_zone(pulley, slipped)
     }
 
-    /// The belt in the slip zone of pulley `pulley`, `slipped` [rad] behind the zone's beginning. There, where friction jumps
-    /// from zero to full, it is the side of the slip zone that is given.
+    /// The belt in the slip zone of pulley `pulley`, `slipped` [rad] behind the zone's beginning.
+    /// There, where friction jumps from zero to full, it is the side of the slip zone that is
+    /// given.
     pub fn in_slip_zone(&self, pulley: usize, slipped: D) -> BeltState<D> {
         let (state, zones) = (&self.pulleys[pulley], &self.zones);
         let stretch_in = state.strain_in + 1.0;

@@ -7,11 +7,12 @@ use proptest::prelude::*;
 use super::sensitivity::{inputs_of, visit_results};
 use super::*;
 
-/// The closure is solved to a relative step of 1e-12 and balances hold by construction: round-off of a few dozen operations.
+/// The closure is solved to a relative step of 1e-12 and balances hold by construction: round-off
+/// of a few dozen operations.
 const ROUND_OFF: f64 = 1.0e-11;
 
-/// Model 2 of Kerkkänen (2006), Table 4.1 and section 4.6: R = 0.05 m, spans pi R, 50 N at rest, mu = 0.6, 500 rad/s,
-/// m = 0.02 kg/m; `torque` brakes the driven pulley.
+/// Model 2 of Kerkkänen (2006), Table 4.1 and section 4.6: R = 0.05 m, spans pi R, 50 N at rest, mu
+/// = 0.6, 500 rad/s, m = 0.02 kg/m; `torque` brakes the driven pulley.
 fn model_2(axial_stiffness: f64, torque: f64) -> StringDrive {
     let radius = 0.05;
     let pulley = |role| StringPulley {
@@ -69,7 +70,8 @@ fn close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs()).max(1.0)
 }
 
-/// Kerkkänen (2006), Figs 4.11, 4.14 and (4.48); the printed digits of an independent calculation, so half of the last one.
+/// Kerkkänen (2006), Figs 4.11, 4.14 and (4.48); the printed digits of an independent calculation,
+/// so half of the last one.
 #[test]
 fn published_speed_losses() {
     let loss = |drive: &StringDrive| runs(drive).pulleys[1].speed_loss;
@@ -119,8 +121,9 @@ fn every_closure_and_model_is_near() {
     }
 }
 
-/// The integral of friction times radius is the torque (all models), that of normal force and friction the hub load of the
-/// pressing tensions (full, capstan). Simpson's rule over the smooth slip zone, 200 panels: error (mu phi/200)^4 < 1e-9.
+/// The integral of friction times radius is the torque (all models), that of normal force and
+/// friction the hub load of the pressing tensions (full, capstan). Simpson's rule over the smooth
+/// slip zone, 200 panels: error (mu phi/200)^4 < 1e-9.
 #[test]
 fn friction_balances_torque() {
     for model in [Model::Full, Model::Centrifugal, Model::Capstan] {
@@ -158,7 +161,8 @@ fn friction_balances_torque() {
     }
 }
 
-/// Power in less power out is what the slip zones lose; the unstretched lengths of all parts make the belt.
+/// Power in less power out is what the slip zones lose; the unstretched lengths of all parts make
+/// the belt.
 #[test]
 fn power_and_length_balance() {
     for model in [Model::Full, Model::Centrifugal, Model::Capstan] {
@@ -183,7 +187,8 @@ fn power_and_length_balance() {
     }
 }
 
-/// Without mass all models are the capstan one; without torque all tensions are equal and nothing slips.
+/// Without mass all models are the capstan one; without torque all tensions are equal and nothing
+/// slips.
 #[test]
 fn limits() {
     for drive in [model_2(200.0, 2.0), serpentine()] {
@@ -236,8 +241,8 @@ fn limits() {
     }
 }
 
-/// At the largest torque the ratio of T - G v is exp(mu wrap) on the limiting pulley; just above it the answer is gross slip, and
-/// the slip angle found passes the wrap there.
+/// At the largest torque the ratio of T - G v is exp(mu wrap) on the limiting pulley; just above it
+/// the answer is gross slip, and the slip angle found passes the wrap there.
 #[test]
 fn gross_slip_torque() {
     for drive in [model_2(200.0, 2.0), model_2(25.0e3, 2.0), serpentine()] {
@@ -293,8 +298,8 @@ fn gross_slip_torque() {
     }
 }
 
-/// A belt longer than its path, and one that centrifugal force lifts off: T_init < m v² at 25 m/s and 0.02 kg/m is 12.5 N
-/// (of the unstretched density: m v0 v = 12.5 N/lambda).
+/// A belt longer than its path, and one that centrifugal force lifts off: T_init < m v² at 25 m/s
+/// and 0.02 kg/m is 12.5 N (of the unstretched density: m v0 v = 12.5 N/lambda).
 #[test]
 fn slack_belts() {
     let mut drive = model_2(25.0e3, 0.5);
@@ -326,7 +331,8 @@ fn slack_belts() {
     );
 }
 
-/// A belt particle does not care which pulley is listed first, nor the drive how its tightness is given.
+/// A belt particle does not care which pulley is listed first, nor the drive how its tightness is
+/// given.
 #[test]
 fn order_and_tightness() {
     let drive = serpentine();
@@ -387,8 +393,9 @@ fn bad_input_is_named() {
     );
 }
 
-/// Dual numbers against central differences with steps of 1e-5 of each input: truncation 1e-10 times third derivatives (taken
-/// as 100 times the value over the input cubed), round-off 1e-12/1e-5 of the value.
+/// Dual numbers against central differences with steps of 1e-5 of each input: truncation 1e-10
+/// times third derivatives (taken as 100 times the value over the input cubed), round-off
+/// 1e-12/1e-5 of the value.
 #[test]
 fn derivatives_match_central_differences() {
     let mut two = model_2(200.0, 2.0);
