@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use hihna::steady::string::{Closure, Model, Role, StringDrive, StringPulley, Tightness};
+use hihna::steady::string::{Answer, Closure, Model, Role, StringDrive, StringPulley, Tightness};
 
 /// Kerkkänen (2006), Model 2: k = 0.2 kN, 2 N m.
 fn two_pulleys() -> StringDrive {
@@ -60,6 +60,10 @@ fn string(criterion: &mut Criterion) {
         ("two pulleys", two_pulleys()),
         ("ten pulleys", ten_pulleys()),
     ] {
+        assert!(
+            matches!(drive.solve(), Ok(Answer::Running(_))),
+            "{name} must run"
+        );
         criterion.bench_function(&format!("string/{name}"), |bencher| {
             bencher.iter(|| black_box(&drive).solve());
         });
