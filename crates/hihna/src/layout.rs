@@ -7,24 +7,29 @@
 //! ```text
 //! L = sqrt(|D|² - h²),   t = D (L - i h) / |D|²,   p_A = c_A - sigma_A R_A i t,   p_B = p_A + L t,
 //! ```
-//! because `c = p + sigma R i t` on both circles. The wrap angle (sweep) of a pulley is the turn from the
-//! incoming to the outgoing tangent, taken in the sense `sigma`, so `0 < sigma sweep < 2 pi`.
+//! because `c = p + sigma R i t` on both circles. The wrap angle (sweep) of a pulley is the turn
+//! from the incoming to the outgoing tangent, taken in the sense `sigma`, so `0 < sigma sweep < 2
+//! pi`.
 //!
 //! # Sense of running along the list
 //!
-//! `sigma = sense` on pulleys inside the loop, `-sense` on pulleys outside of it. For three and more pulleys the
-//! sense is the one whose path is a simple closed curve: total turning `2 pi sense`, no span crossing another,
-//! none running through a pulley. Counter-clockwise is tried first.
-//! Two pulleys can be walked either way; they are walked counter-clockwise (`sense = +1`). Two pulleys, one inside and one
-//! outside, are a crossed belt: its total turning is zero and its two spans cross. The counter-clockwise pulley is
-//! then the inside one.
+//! `sigma = sense` on pulleys inside the loop, `-sense` on pulleys outside of it. For three and
+//! more pulleys the sense is the one whose path is a simple closed curve: total turning `2 pi
+//! sense`, no span crossing another, none running through a pulley. Counter-clockwise is tried
+//! first. Two pulleys can be walked either way; they are walked counter-clockwise (`sense = +1`).
+//! Two pulleys, one inside and one outside, are a crossed belt: its total turning is zero and its
+//! two spans cross. The counter-clockwise pulley is then the inside one.
 //!
-//! The path coordinate `s` starts at mid-wrap of the first pulley and grows in the order of the list. It says
-//! nothing about the direction in which the belt moves.
+//! The path coordinate `s` starts at mid-wrap of the first pulley and grows in the order of the
+//! list. It says nothing about the direction in which the belt moves.
 
 use std::f64::consts::{PI, TAU};
 
 use crate::drive::{Pulley, Wrap};
+
+mod error;
+
+pub use error::LayoutError;
 
 /// A wrap angle below this is no contact [rad]: a micrometre on a pulley of a kilometre.
 const SMALLEST_WRAP: f64 = 1.0e-9;
@@ -34,7 +39,8 @@ const SMALLEST_WRAP: f64 = 1.0e-9;
 pub struct Layout {
     /// The wrapped arcs; `arcs[i]` lies on pulley `i`.
     pub arcs: Vec<Arc>,
-    /// The free spans; `spans[i]` runs from pulley `i` to pulley `i + 1`, the last one back to the first.
+    /// The free spans; `spans[i]` runs from pulley `i` to pulley `i + 1`, the last one back to the
+    /// first.
     pub spans: Vec<Span>,
     /// Total length of the path [m].
     pub length: f64,
@@ -55,7 +61,8 @@ pub struct Arc {
     pub start_angle: f64,
     /// Wrap angle, positive counter-clockwise [rad].
     pub sweep: f64,
-    /// Path coordinate of the first contact point [m]; negative for the first pulley, whose middle has `s = 0`.
+    /// Path coordinate of the first contact point [m]; negative for the first pulley, whose middle
+    /// has `s = 0`.
     pub start: f64,
     /// Length of the arc [m].
     pub length: f64,
@@ -100,94 +107,9 @@ pub enum Place {
     Span(usize),
 }
 
-/// Why pulleys cannot carry a belt in the given order.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum LayoutError {
-    /// Fewer than two pulleys.
-    #[error("a belt needs at least two pulleys, there are {count}")]
-    TooFewPulleys {
-        /// Number of pulleys.
-        count: usize,
-    },
-    /// A centre or radius that is no length.
-    #[error(
-        "pulley \"{pulley}\": radius {radius} m and center {center:?} m must be finite, the radius above zero"
-    )]
-    BadPulley {
-        /// Name of the pulley.
-        pulley: String,
-        /// Its radius [m].
-        radius: f64,
-        /// Its centre [m].
-        center: [f64; 2],
-    },
-    /// Pulleys that touch, overlap or lie in one another.
-    #[error(
-        "pulleys \"{first}\" and \"{second}\" overlap: their centers are {distance:.6} m apart, their radii need more than \
-         {needed:.6} m"
-    )]
-    Overlap {
-        /// Name of the one pulley.
-        first: String,
-        /// Name of the other.
-        second: String,
-        /// Distance of the centres [m].
-        distance: f64,
-        /// Sum of the radii [m].
-        needed: f64,
-    },
-    /// No pulley lies inside the loop.
-    #[error("every pulley has wrap = \"outside\": at least one must lie inside the belt's loop")]
-    AllOutside,
-    /// The belt would pass a pulley without touching it on the wanted side.
-    #[error(
-        "the belt does not touch pulley \"{pulley}\" on the side that wrap = \"{}\" asks for: it would have to turn by {:.1} \
-         degrees around it; move the pulley into the belt, change its wrap or its place in the order",
-        wrap_name(*.wrap), .turn.to_degrees()
-    )]
-    NoContact {
-        /// Name of the pulley.
-        pulley: String,
-        /// The wrap asked for.
-        wrap: Wrap,
-        /// The turn that would be needed [rad].
-        turn: f64,
-    },
-    /// A free span runs through a third pulley.
-    #[error(
-        "the span from \"{from}\" to \"{to}\" runs through pulley \"{pulley}\", {depth:.6} m deep: move the pulley or list it \
-         between the two"
-    )]
-    SpanBlocked {
-        /// Name of the pulley where the span starts.
-        from: String,
-        /// Name of the pulley where it ends.
-        to: String,
-        /// Name of the pulley in the way.
-        pulley: String,
-        /// How deep the span lies in it [m].
-        depth: f64,
-    },
-    /// The path does not close to a loop: two of its spans cross.
-    #[error(
-        "the belt crosses itself between the spans \"{}\"-\"{}\" and \"{}\"-\"{}\": list the pulleys in the order in which the \
-         belt meets them and check each wrap (only two pulleys can have a crossed belt)",
-        .spans[0].0, .spans[0].1, .spans[1].0, .spans[1].1
-    )]
-    SelfCrossing {
-        /// The names at the ends of the two spans.
-        spans: [(String, String); 2],
-    },
-    /// The path turns by something else than a full turn.
-    #[error("the path does not close to a loop: it turns by {:.1} degrees in all, not by one full turn", .turning.to_degrees())]
-    NotClosed {
-        /// The total turning [rad].
-        turning: f64,
-    },
-}
-
 impl Layout {
-    /// Lays a belt around `pulleys`, in their order, and finds the sense of running (see the module's head).
+    /// Lays a belt around `pulleys`, in their order, and finds the sense of running (see the
+    /// module's head).
     pub fn new(pulleys: &[Pulley]) -> Result<Self, LayoutError> {
         check_pulleys(pulleys)?;
         let counter_clockwise = Self::walk(pulleys, 1.0);
@@ -202,7 +124,8 @@ impl Layout {
         }
     }
 
-    /// The point at path coordinate `s` [m], which wraps around the loop; `s = 0` is mid-wrap of the first pulley.
+    /// The point at path coordinate `s` [m], which wraps around the loop; `s = 0` is mid-wrap of
+    /// the first pulley.
     pub fn point(&self, s: f64) -> PathPoint {
         let first = self.arcs[0].start;
         let s = first + (s - first).rem_euclid(self.length);
@@ -332,8 +255,8 @@ struct Tangent {
 }
 
 impl Tangent {
-    /// From pulley `a` to pulley `b`, which the belt turns about in the senses `side_a` and `side_b`. The circles do not
-    /// overlap, so |h| <= R_A + R_B < |D|.
+    /// From pulley `a` to pulley `b`, which the belt turns about in the senses `side_a` and
+    /// `side_b`. The circles do not overlap, so |h| <= R_A + R_B < |D|.
     fn between(a: &Pulley, side_a: f64, b: &Pulley, side_b: f64) -> Self {
         let d = [b.center[0] - a.center[0], b.center[1] - a.center[1]];
         let h = side_b * b.radius - side_a * a.radius;
@@ -364,13 +287,6 @@ fn wrap_sign(wrap: Wrap) -> f64 {
     match wrap {
         Wrap::Inside => 1.0,
         Wrap::Outside => -1.0,
-    }
-}
-
-fn wrap_name(wrap: Wrap) -> &'static str {
-    match wrap {
-        Wrap::Inside => "inside",
-        Wrap::Outside => "outside",
     }
 }
 
@@ -437,8 +353,9 @@ fn sweep(
     })
 }
 
-/// The path must be a simple loop: its total turning one full turn, no span blocked, none crossing another. A pulley that the belt only reaches by running right around it is on the
-/// wrong side of the belt.
+/// The path must be a simple loop: its total turning one full turn, no span blocked, none crossing
+/// another. A pulley that the belt only reaches by running right around it is on the wrong side of
+/// the belt.
 fn check_path(
     pulleys: &[Pulley],
     tangents: &[Tangent],
@@ -536,8 +453,8 @@ fn check_spans(pulleys: &[Pulley], tangents: &[Tangent]) -> Result<(), LayoutErr
     Ok(())
 }
 
-/// Twice the signed area of the polygon of centres, of the inside pulleys where there are three: says which sense an error
-/// message should speak of.
+/// Twice the signed area of the polygon of centres, of the inside pulleys where there are three:
+/// says which sense an error message should speak of.
 fn center_area(pulleys: &[Pulley]) -> f64 {
     let inside: Vec<[f64; 2]> = pulleys
         .iter()

@@ -11,5 +11,6 @@ pub mod observe;
 pub mod profile;
 pub mod record;
 pub mod simulate;
+pub mod steady;
 pub mod summary;
 pub mod units;

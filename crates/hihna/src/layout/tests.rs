@@ -68,7 +68,8 @@ fn unequal_radii() {
     assert!((layout.arcs[1].sweep - (PI - 2.0 * angle)).abs() < ROUND_OFF);
 }
 
-/// Crossed belt: 2 sqrt(d² - (R1 + R2)²) + (R1 + R2) (pi + 2 asin((R1 + R2)/d)); the outside pulley turns clockwise.
+/// Crossed belt: 2 sqrt(d² - (R1 + R2)²) + (R1 + R2) (pi + 2 asin((R1 + R2)/d)); the outside pulley
+/// turns clockwise.
 #[test]
 fn crossed_belt() {
     let (r1, r2, d) = (0.3, 0.1, 0.7_f64);
@@ -80,8 +81,9 @@ fn crossed_belt() {
     assert!((layout.arcs[1].sweep + (PI + 2.0 * angle)).abs() < ROUND_OFF);
 }
 
-/// Two equal pulleys at (+-a, 0), a back-side idler at (0, y) on the upper span. The spans beside it are inner tangents
-/// inclined by beta = asin((R + r)/d) - atan(y/a), d² = a² + y²: length 2 R (pi + beta) + 2 r beta + 2 a + 2 sqrt(d² - (R + r)²).
+/// Two equal pulleys at (+-a, 0), a back-side idler at (0, y) on the upper span. The spans beside
+/// it are inner tangents inclined by beta = asin((R + r)/d) - atan(y/a), d² = a² + y²: length 2 R
+/// (pi + beta) + 2 r beta + 2 a + 2 sqrt(d² - (R + r)²).
 #[test]
 fn three_pulleys_with_outside_idler() {
     let (a, radius, y, small) = (0.5_f64, 0.12_f64, 0.14_f64, 0.05_f64);
@@ -145,7 +147,8 @@ fn refusals_of_idlers_and_orders() {
         inside("left", -0.5, 0.0, 0.1),
         inside("right", 0.5, 0.0, 0.1),
     );
-    // A back-side idler that hangs above the upper span, just touches it, and one that is as large as the drive.
+    // A back-side idler that hangs above the upper span, just touches it, and one that is as large
+    // as the drive.
     for (y, radius) in [(0.2, 0.05), (0.15, 0.05), (1.2, 1.0)] {
         let error = refuse(&[
             left.clone(),
@@ -310,9 +313,9 @@ proptest! {
         }
     }
 
-    /// The path is closed, turns once, and its parameter is the arc length: position is continuous with unit speed, the
-    /// derivative of position is the tangent. Central differences over a junction see the jump of curvature (20 1/m at
-    /// most): error below 20 h.
+    /// The path is closed, turns once, and its parameter is the arc length: position is continuous
+    /// with unit speed, the derivative of position is the tangent. Central differences over a
+    /// junction see the jump of curvature (20 1/m at most): error below 20 h.
     #[test]
     fn path_is_smooth_and_closed(pulleys in serpentine(), s in -20.0..20.0_f64) {
         let layout = Layout::new(&pulleys).unwrap();

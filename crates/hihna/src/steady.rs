@@ -1,0 +1,5 @@
+//! Steady running: what a belt drive settles to, found without stepping through time.
+
+pub mod drive_string;
+pub mod profile;
+pub mod string;
