@@ -9,7 +9,7 @@ use hihna::drive::{Drive, Friction};
 use hihna::input::{self, FieldPath, InputError, InputErrors, Problem};
 use hihna::record::Folder;
 use hihna::steady::drive_string::{DriveString, PulleySummary, SpanSummary, SteadyError};
-use hihna::steady::string::{Answer, Capacity, Closure, GrossSlip, Model, Running, Tightness};
+use hihna::steady::string::{Answer, Capacity, Closure, GrossSlip, Model, Role, Running, Tightness};
 use hihna::summary::Named;
 use serde::Serialize;
 
@@ -140,8 +140,8 @@ struct CapacitySummary {
     pulley: String,
     /// Largest torque on that pulley, without sign.
     largest_torque: f64,
-    /// Torque on the speed-controlled pulley then, without sign.
-    driver_torque: f64,
+    /// External torques then on the pulleys that have one.
+    torque: Named<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -366,13 +366,16 @@ impl Summary {
             }
         }
         if let Some(capacity) = &self.capacity {
+            let torques = capacity.torque.0.iter();
+            let torques: Vec<_> = torques
+                .map(|(pulley, torque)| format!("{} on `{pulley}`", with_prefix(*torque, "N m")))
+                .collect();
             let _ = writeln!(
                 text,
-                "Safety against gross slip: {}\nLargest torque: {} on `{}`, {} on the speed-controlled pulley",
+                "Safety against gross slip: {}, then `{}` slips first\nLargest torque: {}",
                 plain(capacity.factor, "times the torques"),
-                with_prefix(capacity.largest_torque, "N m"),
                 capacity.pulley,
-                with_prefix(capacity.driver_torque, "N m"),
+                torques.join(", "),
             );
         }
         if let Some(loads) = &self.largest_load {
@@ -533,7 +536,7 @@ impl Steady {
             .map_or_else(|| "none, no power is fed in".to_owned(), percent);
         let mut text = String::new();
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "\n{}\n", pulleys.trim_fmt());
+        let _ = writeln!(text, "{}\n", pulleys.trim_fmt());
         let _ = writeln!(text, "{}\n", spans.trim_fmt());
         let _ = writeln!(text, "Speed loss: {}", percent(self.speed_loss));
         let _ = writeln!(
@@ -550,11 +553,18 @@ impl Steady {
 
 impl CapacitySummary {
     fn new(string: &DriveString, capacity: &Capacity) -> Self {
+        let torques = string.names.iter().enumerate().map(|(i, name)| {
+            let torque = match string.string.pulleys[string.string_pulley(i)].role {
+                Role::SpeedControlled(_) => capacity.driver_torque,
+                Role::Torque(torque) => capacity.factor * torque,
+            };
+            (name.clone(), string.rotation(i) * torque)
+        });
         Self {
             factor: capacity.factor,
             pulley: string.names[string.order[capacity.pulley]].clone(),
             largest_torque: capacity.torque.abs(),
-            driver_torque: capacity.driver_torque.abs(),
+            torque: Named(torques.filter(|(_, torque)| *torque != 0.0).collect()),
         }
     }
 }
@@ -576,5 +586,6 @@ impl GrossSlipSummary {
 
 /// `93.94°` of 1.6396 rad.
 fn degrees(angle: f64) -> String {
-    format!("{:.2}°", angle.to_degrees())
+    // Without the sign of a negative zero.
+    format!("{:.2}°", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0)
 }

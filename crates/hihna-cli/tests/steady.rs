@@ -137,8 +137,11 @@ fn the_object_is_consistent() {
     let (driver, driven) = (&steady["pulley"]["driver"], &steady["pulley"]["driven"]);
     assert!((number(&driven["external_torque"]) + 2.0).abs() < 1.0e-10);
     assert!((number(&driven["slip_angle"]) + number(&driven["stick_angle"]) - PI).abs() < 1.0e-10);
-    // The torque on the driver is R times the difference of the momentum-carrying tensions.
     assert!(number(&driver["power"]) > 0.0);
+    // The torque is R times the difference of axial force less momentum flow.
+    let pressing = |span: &str| number(&steady["span"][span]["pressing_tension"]);
+    let torque = 0.05 * (pressing("driven-driver") - pressing("driver-driven"));
+    assert!((torque - 2.0).abs() < 1.0e-10);
     let power = |key: &str| number(&steady[key]);
     assert!((power("power_in") - power("power_out") - power("power_lost")).abs() < 1.0e-8);
     assert!((power("efficiency") - power("power_out") / power("power_in")).abs() < 1.0e-12);
@@ -148,6 +151,9 @@ fn the_object_is_consistent() {
     );
     let capacity = &answer["capacity"];
     assert!(number(&capacity["factor"]) > 1.0);
+    assert!(
+        (number(&capacity["torque"]["driven"]) + number(&capacity["largest_torque"])).abs() < 1.0e-9
+    );
     assert!(
         (number(&capacity["largest_torque"]) - 2.0 * number(&capacity["factor"])).abs() < 1.0e-9
     );
@@ -189,6 +195,7 @@ fn the_built_in_drive_idles() {
     for part in [
         "12.00 rad/s",
         "no torque is transmitted",
+        " 0.00°",
         "as the only load",
         "Efficiency: none",
     ] {
