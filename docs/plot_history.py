@@ -36,7 +36,7 @@ def ticks(low, high, count):
     """About `count` round numbers within [low, high]."""
     rough = (high - low) / count
     power = 10.0 ** math.floor(math.log10(rough))
-    step = next(f * power for f in (1, 2, 5, 10) if f * power >= rough * (1 - 1e-9))
+    step = min((f * power for f in (1, 2, 5, 10)), key=lambda step: abs(math.log(step / rough)))
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
     return [(i * step, f"{i * step:.{decimals}f}") for i in range(first, last + 1)]
