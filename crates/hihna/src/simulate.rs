@@ -342,7 +342,7 @@ pub fn nominal_speed(drive: &Drive) -> f64 {
         .pulley
         .iter()
         .map(|pulley| {
-            let speed = pulley.speed.as_ref().map_or(0.0, |s| s.bound());
+            let speed = pulley.speed.as_ref().map_or(0.0, Profile::bound);
             let turning = pulley.angle.as_ref().map_or(0.0, slope_bound);
             speed.max(turning) * pulley.radius
         })

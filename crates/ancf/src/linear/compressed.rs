@@ -9,14 +9,11 @@ pub struct CompressedRows {
     /// Where each row starts in `entries`; one more at the end.
     starts: Vec<usize>,
     /// Column and value.
-    entries: Vec<(u32, f64)>,
+    entries: Vec<(usize, f64)>,
 }
 
 impl CompressedRows {
     /// The entries of `matrix`.
-    ///
-    /// # Panics
-    /// If the matrix has more than 2^32 columns.
     #[must_use]
     pub fn new(matrix: &BorderedMatrix) -> Self {
         let mut triplets: Vec<(usize, usize, f64)> = matrix
@@ -34,10 +31,7 @@ impl CompressedRows {
         }
         let entries = triplets
             .into_iter()
-            .map(|(_, column, value)| match u32::try_from(column) {
-                Ok(column) => (column, value),
-                Err(_) => panic!("a matrix of {size} columns is too large"),
-            })
+            .map(|(_, column, value)| (column, value))
             .collect();
         Self { starts, entries }
     }
@@ -47,7 +41,7 @@ impl CompressedRows {
         for (value, range) in y.iter_mut().zip(self.starts.windows(2)) {
             let mut sum = 0.0;
             for (column, entry) in &self.entries[range[0]..range[1]] {
-                sum += entry * x[*column as usize];
+                sum += entry * x[*column];
             }
             *value = sum;
         }
