@@ -14,6 +14,7 @@
 //! proportional to the number of sections, [`SparseSolver`] is the general path through `faer` for matrices that need pivots across sections.
 
 mod block_size;
+mod compressed;
 mod cyclic;
 mod elimination;
 mod kernel;
@@ -21,6 +22,7 @@ mod matrix;
 mod sparse;
 mod tail;
 
+pub use compressed::CompressedRows;
 pub use cyclic::CyclicSolver;
 pub use matrix::{BorderedMatrix, Structure};
 pub use sparse::SparseSolver;

@@ -1,13 +1,13 @@
 //! One flexible body: a chain of elements, open or closed to a loop.
 
-use pulp::Arch;
-
 use crate::element::Element;
 use crate::linear::BorderedMatrix;
-use crate::scalar::{Lanes, Scalar};
+use crate::scalar::{EightLanes, LaneKernel, dispatch};
 
 /// Elements computed side by side.
 const LANES: usize = 8;
+/// Most coordinates of an element; sizes the working memory on the stack.
+const MAX_DOF: usize = 12;
 
 /// A chain of two-node elements. Element `i` joins section (node) `i` to section `i + 1`; in a
 /// closed chain the last joins the first.
@@ -17,18 +17,6 @@ pub struct Mesh<E> {
     closed: bool,
     /// All elements equal: they are computed in lanes.
     uniform: bool,
-    arch: Arch,
-    scratch: Scratch,
-}
-
-/// Working memory of the element loops, allocated once.
-#[derive(Clone, Debug)]
-struct Scratch {
-    e: Vec<Lanes<LANES>>,
-    rate: Vec<Lanes<LANES>>,
-    force: Vec<Lanes<LANES>>,
-    matrix: Vec<Lanes<LANES>>,
-    local: Vec<f64>,
 }
 
 impl<E: Element> Mesh<E> {
@@ -46,20 +34,13 @@ impl<E: Element> Mesh<E> {
 
     fn new(elements: Vec<E>, closed: bool) -> Self {
         let uniform = elements.windows(2).all(|pair| pair[0] == pair[1]);
-        let zero = Lanes([0.0; LANES]);
-        let scratch = Scratch {
-            e: vec![zero; E::DOF],
-            rate: vec![zero; E::DOF],
-            force: vec![zero; E::DOF],
-            matrix: vec![zero; E::DOF * E::DOF],
-            local: vec![0.0; E::DOF * E::DOF],
-        };
+        const {
+            assert!(E::DOF <= MAX_DOF, "raise MAX_DOF for this element");
+        }
         Self {
             elements,
             closed,
             uniform,
-            arch: Arch::new(),
-            scratch,
         }
     }
 
@@ -142,108 +123,64 @@ impl<E: Element> Mesh<E> {
     }
 
     /// Adds elastic and internal damping forces of the state `(q, v)` to `f`.
-    pub fn add_force(&mut self, q: &[f64], v: &[f64], f: &mut [f64]) {
-        let mut scratch = std::mem::take(&mut self.scratch);
-        let arch = self.arch;
-        arch.dispatch(
-            #[inline(always)]
-            || {
-                self.for_batches(&mut scratch, q, v, |mesh, scratch, batch| {
-                    let element = &mesh.elements[batch.first];
-                    element.force(&scratch.e, &mut scratch.force);
-                    if element.is_damped() {
-                        element.add_damping_force(&scratch.e, &scratch.rate, &mut scratch.force);
-                    }
-                    for lane in 0..batch.count {
-                        for i in 0..E::DOF {
-                            scratch.local[i] = scratch.force[i].0[lane];
-                        }
-                        mesh.scatter(batch.first + lane, &scratch.local[..E::DOF], f);
-                    }
-                });
-            },
-        );
-        self.scratch = scratch;
+    pub fn add_force(&self, q: &[f64], v: &[f64], f: &mut [f64]) {
+        dispatch(AddForce {
+            mesh: self,
+            q,
+            v,
+            f,
+        });
     }
 
     /// Adds `position_factor * K + velocity_factor * C` of elastic and damping forces to `matrix`,
     /// with `K = -dF/dq`, `C = -dF/dv`.
     pub fn add_tangent(
-        &mut self,
+        &self,
         q: &[f64],
         v: &[f64],
         position_factor: f64,
         velocity_factor: f64,
         matrix: &mut BorderedMatrix,
     ) {
-        let mut scratch = std::mem::take(&mut self.scratch);
-        let arch = self.arch;
-        arch.dispatch(
-            #[inline(always)]
-            || {
-                self.for_batches(&mut scratch, q, v, |mesh, scratch, batch| {
-                    let element = &mesh.elements[batch.first];
-                    element.stiffness(&scratch.e, &mut scratch.matrix);
-                    let factor = if element.is_damped() {
-                        for value in &mut scratch.matrix {
-                            *value = *value * position_factor;
-                        }
-                        element.add_damping_tangent(
-                            &scratch.e,
-                            &scratch.rate,
-                            position_factor,
-                            velocity_factor,
-                            &mut scratch.matrix,
-                        );
-                        1.0
-                    } else {
-                        position_factor
-                    };
-                    for lane in 0..batch.count {
-                        for (local, lanes) in scratch.local.iter_mut().zip(&scratch.matrix) {
-                            *local = lanes.0[lane];
-                        }
-                        matrix.add_pair(batch.first + lane, factor, &scratch.local);
-                    }
-                });
-            },
-        );
-        self.scratch = scratch;
+        dispatch(AddTangent {
+            mesh: self,
+            q,
+            v,
+            position_factor,
+            velocity_factor,
+            matrix,
+        });
     }
 
-    /// Runs `work` on batches of equal elements with their coordinates gathered into lanes; lanes
-    /// without an element repeat the last one.
-    #[inline(always)]
-    fn for_batches(
-        &self,
-        scratch: &mut Scratch,
-        q: &[f64],
-        v: &[f64],
-        mut work: impl FnMut(&Self, &mut Scratch, Batch),
-    ) {
-        let n = E::NODE_DOF;
+    /// The batches of equal elements.
+    fn batches(&self) -> impl Iterator<Item = Batch> {
         let width = if self.uniform { LANES } else { 1 };
-        let damped = self.elements.first().is_some_and(Element::is_damped);
-        let mut first = 0;
-        while first < self.elements.len() {
-            let count = width.min(self.elements.len() - first);
-            for lane in 0..LANES {
-                let node = first + lane.min(count - 1);
-                let (a, b) = (node * n, self.next(node) * n);
-                for i in 0..n {
-                    scratch.e[i].0[lane] = q[a + i];
-                    scratch.e[n + i].0[lane] = q[b + i];
-                }
-                if damped {
-                    for i in 0..n {
-                        scratch.rate[i].0[lane] = v[a + i];
-                        scratch.rate[n + i].0[lane] = v[b + i];
-                    }
-                }
+        let elements = self.elements.len();
+        (0..elements.div_ceil(width)).map(move |i| Batch {
+            first: i * width,
+            count: width.min(elements - i * width),
+        })
+    }
+
+    /// The values of `x` at the coordinates of a batch, element by element in lanes; lanes without an
+    /// element repeat the last one.
+    #[inline(always)]
+    fn load<S: EightLanes>(&self, batch: Batch, x: &[f64]) -> [S; MAX_DOF] {
+        let n = E::NODE_DOF;
+        let mut lanes = [[0.0; LANES]; MAX_DOF];
+        for lane in 0..LANES {
+            let node = batch.first + lane.min(batch.count - 1);
+            let (a, b) = (node * n, self.next(node) * n);
+            for i in 0..n {
+                lanes[i][lane] = x[a + i];
+                lanes[n + i][lane] = x[b + i];
             }
-            work(self, scratch, Batch { first, count });
-            first += count;
         }
+        let mut loaded = [S::zero(); MAX_DOF];
+        for (value, lanes) in loaded.iter_mut().zip(&lanes) {
+            *value = S::load(lanes);
+        }
+        loaded
     }
 
     /// Adds the constant mass matrix to `matrix`.
@@ -279,27 +216,95 @@ impl<E: Element> Mesh<E> {
     }
 }
 
-/// Consecutive elements computed together.
+/// Consecutive equal elements computed together.
 #[derive(Clone, Copy)]
 struct Batch {
     first: usize,
     count: usize,
 }
 
-impl Default for Scratch {
-    fn default() -> Self {
-        Self {
-            e: Vec::new(),
-            rate: Vec::new(),
-            force: Vec::new(),
-            matrix: Vec::new(),
-            local: Vec::new(),
+/// The work of [`Mesh::add_force`].
+struct AddForce<'a, E> {
+    mesh: &'a Mesh<E>,
+    q: &'a [f64],
+    v: &'a [f64],
+    f: &'a mut [f64],
+}
+
+impl<E: Element> LaneKernel for AddForce<'_, E> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        for batch in self.mesh.batches() {
+            let element = &self.mesh.elements[batch.first];
+            let e = self.mesh.load::<S>(batch, self.q);
+            let mut force = [S::zero(); MAX_DOF];
+            element.force(&e[..E::DOF], &mut force[..E::DOF]);
+            if element.is_damped() {
+                let rate = self.mesh.load::<S>(batch, self.v);
+                element.add_damping_force(&e[..E::DOF], &rate[..E::DOF], &mut force[..E::DOF]);
+            }
+            let mut stored = [[0.0; LANES]; MAX_DOF];
+            for (lanes, value) in stored.iter_mut().zip(&force) {
+                *lanes = value.store();
+            }
+            for lane in 0..batch.count {
+                let local: [f64; MAX_DOF] = std::array::from_fn(|i| stored[i][lane]);
+                self.mesh.scatter(batch.first + lane, &local, self.f);
+            }
         }
     }
 }
 
-// Kernels must see one scalar type for plain and lane evaluation.
-const _: fn() = || {
-    fn is_scalar<S: Scalar>() {}
-    is_scalar::<Lanes<LANES>>();
-};
+/// The work of [`Mesh::add_tangent`].
+struct AddTangent<'a, E> {
+    mesh: &'a Mesh<E>,
+    q: &'a [f64],
+    v: &'a [f64],
+    position_factor: f64,
+    velocity_factor: f64,
+    matrix: &'a mut BorderedMatrix,
+}
+
+impl<E: Element> LaneKernel for AddTangent<'_, E> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        let square = E::DOF * E::DOF;
+        let mut tangent = [S::zero(); MAX_DOF * MAX_DOF];
+        let mut stored = [[0.0; LANES]; MAX_DOF * MAX_DOF];
+        let mut local = [0.0; MAX_DOF * MAX_DOF];
+        for batch in self.mesh.batches() {
+            let element = &self.mesh.elements[batch.first];
+            let e = self.mesh.load::<S>(batch, self.q);
+            element.stiffness(&e[..E::DOF], &mut tangent[..square]);
+            let mut factor = self.position_factor;
+            if element.is_damped() {
+                let rate = self.mesh.load::<S>(batch, self.v);
+                for value in &mut tangent[..square] {
+                    *value = *value * self.position_factor;
+                }
+                factor = 1.0;
+                element.add_damping_tangent(
+                    &e[..E::DOF],
+                    &rate[..E::DOF],
+                    self.position_factor,
+                    self.velocity_factor,
+                    &mut tangent[..square],
+                );
+            }
+            for (lanes, value) in stored.iter_mut().zip(&tangent[..square]) {
+                *lanes = value.store();
+            }
+            for lane in 0..batch.count {
+                for (value, lanes) in local[..square].iter_mut().zip(&stored) {
+                    *value = lanes[lane];
+                }
+                self.matrix
+                    .add_pair(batch.first + lane, factor, &local[..square]);
+            }
+        }
+    }
+}

@@ -12,7 +12,7 @@
 use std::fmt;
 
 use crate::element::Element;
-use crate::linear::{BorderedMatrix, Structure};
+use crate::linear::{BorderedMatrix, CompressedRows, Structure};
 use crate::mesh::Mesh;
 
 /// Time, coordinates and velocities.
@@ -106,6 +106,7 @@ pub struct System<E, L> {
     pub law: L,
     structure: Structure,
     mass: BorderedMatrix,
+    compressed_mass: CompressedRows,
     constant_force: Vec<f64>,
     prescribed: Vec<(usize, Box<dyn Motion>)>,
     scales: Vec<f64>,
@@ -135,6 +136,7 @@ impl<E: Element, L: ForceLaw> System<E, L> {
             mesh,
             law,
             structure,
+            compressed_mass: CompressedRows::new(&mass),
             mass,
             constant_force: vec![0.0; structure.size()],
             prescribed,
@@ -163,6 +165,7 @@ impl<E: Element, L: ForceLaw> System<E, L> {
             law: change(self.law),
             structure: self.structure,
             mass: self.mass,
+            compressed_mass: self.compressed_mass,
             constant_force: self.constant_force,
             prescribed: self.prescribed,
             scales: self.scales,
@@ -177,7 +180,7 @@ impl<E: Element, L: ForceLaw> System<E, L> {
     /// Kinetic energy [J].
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
         let mut momentum = vec![0.0; v.len()];
-        self.mass.multiply(v, &mut momentum);
+        self.compressed_mass.multiply(v, &mut momentum);
         0.5 * v.iter().zip(&momentum).map(|(a, b)| a * b).sum::<f64>()
     }
 

@@ -21,9 +21,8 @@ use std::marker::PhantomData;
 use ancf::element::LineElement;
 use ancf::linear::BorderedMatrix;
 use ancf::quadrature::Rule;
-use ancf::scalar::{Lanes, Scalar};
+use ancf::scalar::{EightLanes, LaneKernel, Scalar, dispatch};
 use ancf::system::{ForceLaw, State};
-use pulp::Arch;
 
 use crate::friction::FrictionLaw;
 use crate::profile::Profile;
@@ -32,8 +31,6 @@ use crate::profile::Profile;
 const LANES: usize = 8;
 /// Most vectors that a centre line reads.
 const MAX_VECTORS: usize = 4;
-
-type Wide = Lanes<LANES>;
 
 /// A pulley as the contact sees it.
 #[derive(Clone, Debug)]
@@ -204,9 +201,9 @@ struct PointTangent<S> {
 #[derive(Clone, Debug)]
 struct Table {
     /// Per batch of points, per vector of the centre line.
-    shape: Vec<[Wide; MAX_VECTORS]>,
+    shape: Vec<[[f64; LANES]; MAX_VECTORS]>,
     /// Quadrature weight times length [m]; zero in lanes without a point.
-    weight: Vec<Wide>,
+    weight: Vec<[f64; LANES]>,
     length: f64,
 }
 
@@ -261,7 +258,6 @@ pub struct BeltContact<E, F> {
     tables: Vec<Table>,
     /// Table of each element.
     table_of: Vec<usize>,
-    arch: Arch,
     /// Element matrix, allocated once.
     local: Vec<f64>,
     element: PhantomData<E>,
@@ -299,7 +295,6 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
             rule,
             tables,
             table_of,
-            arch: Arch::new(),
             local: vec![0.0; E::DOF * E::DOF],
             element: PhantomData,
         }
@@ -315,7 +310,6 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
             rule: self.rule,
             tables: self.tables,
             table_of: self.table_of,
-            arch: self.arch,
             local: self.local,
             element: PhantomData,
         }
@@ -340,7 +334,7 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
 
     /// Runs `work` for every batch of points of an element that may touch a pulley.
     #[inline(always)]
-    fn for_contacts(&self, state: State<'_>, mut work: impl FnMut(Batch<'_, Wide>)) {
+    fn for_contacts<S: EightLanes>(&self, state: State<'_>, mut work: impl FnMut(&Batch<'_, S>)) {
         let count = E::CENTRE_VECTORS.len();
         let rotors = self.rotors();
         for (element, table) in self.table_of.iter().enumerate() {
@@ -359,25 +353,32 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
                     continue;
                 }
                 let speed = state.v[rotors + p];
-                for (shape, weight) in table.shape.iter().zip(&table.weight) {
-                    let mut r = [Wide::zero(); 2];
-                    let mut v = [Wide::zero(); 2];
+                for (stored, weight) in table.shape.iter().zip(&table.weight) {
+                    let mut shape = [S::zero(); MAX_VECTORS];
+                    let mut r = [S::zero(); 2];
+                    let mut v = [S::zero(); 2];
                     for slot in 0..count {
+                        shape[slot] = S::load(&stored[slot]);
                         for axis in 0..2 {
                             r[axis] += shape[slot] * position[slot][axis];
                             v[axis] += shape[slot] * state.v[at[slot] + axis];
                         }
                     }
-                    let contact =
-                        PointContact::new(&self.penalty, &self.friction, pulley, speed, r, v);
-                    work(Batch {
+                    work(&Batch {
                         element,
                         pulley: p,
                         speed,
                         at: &at,
                         shape,
-                        weight: *weight,
-                        contact,
+                        weight: S::load(weight),
+                        contact: PointContact::new(
+                            &self.penalty,
+                            &self.friction,
+                            pulley,
+                            speed,
+                            r,
+                            v,
+                        ),
                     });
                 }
             }
@@ -387,36 +388,11 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
     /// Torque, hub force, slip and power on every pulley.
     pub fn resultants(&self, state: State<'_>, out: &mut [PulleyContact]) {
         out.fill(PulleyContact::default());
-        let arch = self.arch;
-        arch.dispatch(
-            #[inline(always)]
-            || {
-                self.for_contacts(state, |batch| {
-                    let radius = self.pulleys[batch.pulley].radius;
-                    let contact = &batch.contact;
-                    let weight = contact
-                        .penetration
-                        .select_positive(batch.weight, Wide::zero());
-                    let sum = |x: Wide| (x * weight).0.iter().sum::<f64>();
-                    let total = &mut out[batch.pulley];
-                    let force = contact.force();
-                    total.torque += sum(contact.torque(radius));
-                    total.hub_force[0] -= sum(force[0]);
-                    total.hub_force[1] -= sum(force[1]);
-                    total.length += sum(Wide::constant(1.0));
-                    total.slip_speed += sum(contact.slip);
-                    total.friction_loss += sum(contact.friction_loss(radius, batch.speed));
-                    let elastic = contact.penetration * self.penalty.stiffness;
-                    total.contact_loss += sum((contact.normal_force - elastic) * contact.rate);
-                    total.stored_energy += sum(elastic * contact.penetration * 0.5);
-                    for lane in 0..LANES {
-                        if weight.0[lane] > 0.0 {
-                            total.penetration = total.penetration.max(contact.penetration.0[lane]);
-                        }
-                    }
-                });
-            },
-        );
+        dispatch(Resultants {
+            contact: self,
+            state,
+            out,
+        });
         for total in out {
             if total.length > 0.0 {
                 total.slip_speed /= total.length;
@@ -435,7 +411,7 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
                 let (batch, lane) = (k / LANES, k % LANES);
                 weights.fill(0.0);
                 for (slot, vector) in E::CENTRE_VECTORS.iter().enumerate() {
-                    weights[*vector] = table.shape[batch][slot].0[lane];
+                    weights[*vector] = table.shape[batch][slot][lane];
                 }
                 let mut position = [0.0; 2];
                 let mut velocity = [0.0; 2];
@@ -461,7 +437,7 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
                 points.push(BeltPoint {
                     element,
                     xi: *xi,
-                    weight: table.weight[batch].0[lane],
+                    weight: table.weight[batch][lane],
                     position,
                     velocity,
                     contact,
@@ -479,7 +455,7 @@ struct Batch<'a, S> {
     speed: f64,
     /// First coordinate of each vector of the centre line.
     at: &'a [usize; MAX_VECTORS],
-    shape: &'a [S; MAX_VECTORS],
+    shape: [S; MAX_VECTORS],
     weight: S,
     contact: PointContact<S>,
 }
@@ -506,7 +482,7 @@ fn hull(vectors: &[[f64; 2]], length: f64) -> ([f64; 2], f64) {
 impl Table {
     fn new<E: LineElement>(element: &E, rule: &Rule) -> Self {
         let batches = rule.points.len().div_ceil(LANES);
-        let zero = Wide::zero();
+        let zero = [0.0; LANES];
         let mut table = Self {
             shape: vec![[zero; MAX_VECTORS]; batches],
             weight: vec![zero; batches],
@@ -519,10 +495,10 @@ impl Table {
             element.centre_line(rule.points[k], &mut weights);
             let (batch, lane_of) = (lane / LANES, lane % LANES);
             for (slot, vector) in E::CENTRE_VECTORS.iter().enumerate() {
-                table.shape[batch][slot].0[lane_of] = weights[*vector];
+                table.shape[batch][slot][lane_of] = weights[*vector];
             }
             if lane < rule.points.len() {
-                table.weight[batch].0[lane_of] = rule.weights[k] * element.length();
+                table.weight[batch][lane_of] = rule.weights[k] * element.length();
             }
         }
         table
@@ -531,25 +507,12 @@ impl Table {
 
 impl<E: LineElement, F: FrictionLaw> ForceLaw for BeltContact<E, F> {
     fn add_force(&mut self, state: State<'_>, force: &mut [f64]) {
+        dispatch(AddForce {
+            contact: self,
+            state,
+            force,
+        });
         let rotors = self.rotors();
-        let this = &*self;
-        self.arch.dispatch(
-            #[inline(always)]
-            || {
-                this.for_contacts(state, |batch| {
-                    let f = batch.contact.force();
-                    let torque = batch.contact.torque(this.pulleys[batch.pulley].radius);
-                    force[rotors + batch.pulley] += (torque * batch.weight).0.iter().sum::<f64>();
-                    let weighted = [f[0] * batch.weight, f[1] * batch.weight];
-                    for slot in 0..E::CENTRE_VECTORS.len() {
-                        for axis in 0..2 {
-                            force[batch.at[slot] + axis] +=
-                                (batch.shape[slot] * weighted[axis]).0.iter().sum::<f64>();
-                        }
-                    }
-                });
-            },
-        );
         for (p, pulley) in self.pulleys.iter().enumerate() {
             force[rotors + p] += pulley.torque.value(state.time);
         }
@@ -562,58 +525,161 @@ impl<E: LineElement, F: FrictionLaw> ForceLaw for BeltContact<E, F> {
         velocity_factor: f64,
         matrix: &mut BorderedMatrix,
     ) {
-        let dof = E::DOF;
         let mut local = std::mem::take(&mut self.local);
-        let this = &*self;
-        self.arch.dispatch(
+        dispatch(AddTangent {
+            contact: self,
+            state,
+            position_factor,
+            velocity_factor,
+            local: &mut local,
+            matrix,
+        });
+        self.local = local;
+    }
+}
+
+/// The sum over the lanes.
+#[inline(always)]
+fn sum<S: EightLanes>(x: S) -> f64 {
+    let [a, b, c, d, e, f, g, h] = x.store();
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
+}
+
+/// The work of [`BeltContact::resultants`].
+struct Resultants<'a, E, F> {
+    contact: &'a BeltContact<E, F>,
+    state: State<'a>,
+    out: &'a mut [PulleyContact],
+}
+
+impl<E: LineElement, F: FrictionLaw> LaneKernel for Resultants<'_, E, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        let (this, out) = (self.contact, self.out);
+        this.for_contacts::<S>(
+            self.state,
             #[inline(always)]
-            || {
-                this.for_contacts(state, |batch| {
-                    if batch.contact.penetration.0.iter().all(|d| *d <= 0.0) {
-                        return;
-                    }
-                    let radius = this.pulleys[batch.pulley].radius;
-                    let tangent = batch
-                        .contact
-                        .tangent(radius, position_factor, velocity_factor);
-                    local.fill(0.0);
-                    let vectors = E::CENTRE_VECTORS;
-                    for lane in 0..LANES {
-                        let weight = batch.weight.0[lane];
-                        let g: [[f64; 2]; 2] = std::array::from_fn(|i| {
-                            std::array::from_fn(|j| tangent.force[i][j].0[lane])
-                        });
-                        for (a, row) in vectors.iter().enumerate() {
-                            let left = weight * batch.shape[a].0[lane];
-                            for (b, column) in vectors.iter().enumerate() {
-                                let scale = left * batch.shape[b].0[lane];
-                                let at = 2 * row * dof + 2 * column;
-                                local[at] += scale * g[0][0];
-                                local[at + 1] += scale * g[0][1];
-                                local[at + dof] += scale * g[1][0];
-                                local[at + dof + 1] += scale * g[1][1];
-                            }
-                        }
-                    }
-                    matrix.add_pair(batch.element, 1.0, &local);
-                    let sum = |x: Wide| x.0.iter().sum::<f64>();
-                    for slot in 0..vectors.len() {
-                        let weighted = batch.shape[slot] * batch.weight;
-                        let column: [f64; 2] =
-                            std::array::from_fn(|i| sum(tangent.force_by_speed[i] * weighted));
-                        let row: [f64; 2] =
-                            std::array::from_fn(|i| sum(tangent.torque[i] * weighted));
-                        matrix.add_border_column(batch.pulley, batch.at[slot], &column);
-                        matrix.add_border_row(batch.pulley, batch.at[slot], &row);
-                    }
-                    matrix.add_corner(
-                        batch.pulley,
-                        batch.pulley,
-                        sum(tangent.torque_by_speed * batch.weight),
-                    );
-                });
+            |batch| {
+                let radius = this.pulleys[batch.pulley].radius;
+                let contact = &batch.contact;
+                let weight = contact.penetration.select_positive(batch.weight, S::zero());
+                let total = &mut out[batch.pulley];
+                let force = contact.force();
+                total.torque += sum(contact.torque(radius) * weight);
+                total.hub_force[0] -= sum(force[0] * weight);
+                total.hub_force[1] -= sum(force[1] * weight);
+                total.length += sum(weight);
+                total.slip_speed += sum(contact.slip * weight);
+                total.friction_loss += sum(contact.friction_loss(radius, batch.speed) * weight);
+                let elastic = contact.penetration * this.penalty.stiffness;
+                total.contact_loss += sum((contact.normal_force - elastic) * contact.rate * weight);
+                total.stored_energy += sum(elastic * contact.penetration * 0.5 * weight);
+                let deepest = weight.select_positive(contact.penetration, S::zero());
+                for penetration in deepest.store() {
+                    total.penetration = total.penetration.max(penetration);
+                }
             },
         );
-        self.local = local;
+    }
+}
+
+/// The work of [`ForceLaw::add_force`].
+struct AddForce<'a, E, F> {
+    contact: &'a BeltContact<E, F>,
+    state: State<'a>,
+    force: &'a mut [f64],
+}
+
+impl<E: LineElement, F: FrictionLaw> LaneKernel for AddForce<'_, E, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        let (this, force) = (self.contact, self.force);
+        let rotors = this.rotors();
+        this.for_contacts::<S>(
+            self.state,
+            #[inline(always)]
+            |batch| {
+                let f = batch.contact.force();
+                let torque = batch.contact.torque(this.pulleys[batch.pulley].radius);
+                force[rotors + batch.pulley] += sum(torque * batch.weight);
+                let weighted = [f[0] * batch.weight, f[1] * batch.weight];
+                for slot in 0..E::CENTRE_VECTORS.len() {
+                    for axis in 0..2 {
+                        force[batch.at[slot] + axis] += sum(batch.shape[slot] * weighted[axis]);
+                    }
+                }
+            },
+        );
+    }
+}
+
+/// The work of [`ForceLaw::add_tangent`].
+struct AddTangent<'a, E, F> {
+    contact: &'a BeltContact<E, F>,
+    state: State<'a>,
+    position_factor: f64,
+    velocity_factor: f64,
+    /// Element matrix.
+    local: &'a mut [f64],
+    matrix: &'a mut BorderedMatrix,
+}
+
+impl<E: LineElement, F: FrictionLaw> LaneKernel for AddTangent<'_, E, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        let Self {
+            contact: this,
+            state,
+            position_factor,
+            velocity_factor,
+            local,
+            matrix,
+        } = self;
+        let (dof, vectors) = (E::DOF, E::CENTRE_VECTORS);
+        this.for_contacts::<S>(
+            state,
+            #[inline(always)]
+            |batch| {
+                if batch.contact.penetration.store().iter().all(|d| *d <= 0.0) {
+                    return;
+                }
+                let radius = this.pulleys[batch.pulley].radius;
+                let tangent = batch
+                    .contact
+                    .tangent(radius, position_factor, velocity_factor);
+                local.fill(0.0);
+                for (a, row) in vectors.iter().enumerate() {
+                    let weighted = batch.shape[a] * batch.weight;
+                    let left: [[S; 2]; 2] = std::array::from_fn(|i| {
+                        std::array::from_fn(|j| tangent.force[i][j] * weighted)
+                    });
+                    for (b, column) in vectors.iter().enumerate() {
+                        let at = 2 * row * dof + 2 * column;
+                        local[at] = sum(left[0][0] * batch.shape[b]);
+                        local[at + 1] = sum(left[0][1] * batch.shape[b]);
+                        local[at + dof] = sum(left[1][0] * batch.shape[b]);
+                        local[at + dof + 1] = sum(left[1][1] * batch.shape[b]);
+                    }
+                    let column: [f64; 2] =
+                        std::array::from_fn(|i| sum(tangent.force_by_speed[i] * weighted));
+                    let torque: [f64; 2] =
+                        std::array::from_fn(|i| sum(tangent.torque[i] * weighted));
+                    matrix.add_border_column(batch.pulley, batch.at[a], &column);
+                    matrix.add_border_row(batch.pulley, batch.at[a], &torque);
+                }
+                matrix.add_pair(batch.element, 1.0, local);
+                matrix.add_corner(
+                    batch.pulley,
+                    batch.pulley,
+                    sum(tangent.torque_by_speed * batch.weight),
+                );
+            },
+        );
     }
 }

@@ -231,7 +231,7 @@ impl Observer {
         out.fill(SpanState::default());
         let on = |i: usize| points[i % points.len()].contact.map(|(p, _)| p);
         let Some(start) = (0..points.len()).find(|i| on(*i).is_some()) else {
-            let whole = self.mean(system.mesh(), motion, &points, 0..points.len());
+            let whole = mean(system.mesh(), motion, &points, 0..points.len());
             out.fill(whole);
             return;
         };
@@ -247,7 +247,7 @@ impl Observer {
                 && next > i + 1
                 && to != from
             {
-                let mean = self.mean(system.mesh(), motion, &points, i + 1..next);
+                let mean = mean(system.mesh(), motion, &points, i + 1..next);
                 let mut span = from;
                 while span != to {
                     out[span] = mean;
@@ -255,39 +255,6 @@ impl Observer {
                 }
             }
             i = next;
-        }
-    }
-
-    fn mean<E: LineElement>(
-        &self,
-        mesh: &Mesh<E>,
-        motion: &Motion,
-        points: &[BeltPoint],
-        range: std::ops::Range<usize>,
-    ) -> SpanState {
-        let mut sum = SpanState::default();
-        let mut length = 0.0;
-        let mut e = vec![0.0; E::DOF];
-        let mut gathered = usize::MAX;
-        for i in range {
-            let point = &points[i % points.len()];
-            if point.element != gathered {
-                mesh.gather(point.element, &motion.q, &mut e);
-                gathered = point.element;
-            }
-            let element = &mesh.elements()[point.element];
-            let slope = element.slope(&e, point.xi);
-            let stretch = slope[0].hypot(slope[1]);
-            let along = (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch;
-            sum.tension += point.weight * element.axial_force(&e, point.xi);
-            sum.strain += point.weight * (stretch - 1.0);
-            sum.speed += point.weight * along;
-            length += point.weight;
-        }
-        SpanState {
-            tension: sum.tension / length,
-            strain: sum.strain / length,
-            speed: sum.speed / length,
         }
     }
 
@@ -349,8 +316,7 @@ impl Observer {
         motion: &Motion,
     ) -> f64 {
         let points = system.law.points(state(motion));
-        self.mean(system.mesh(), motion, &points, 0..points.len())
-            .tension
+        mean(system.mesh(), motion, &points, 0..points.len()).tension
     }
 }
 
@@ -360,5 +326,38 @@ fn state(motion: &Motion) -> State<'_> {
         time: motion.time,
         q: &motion.q,
         v: &motion.v,
+    }
+}
+
+/// Means over a range of integration points (cyclic).
+fn mean<E: LineElement>(
+    mesh: &Mesh<E>,
+    motion: &Motion,
+    points: &[BeltPoint],
+    range: std::ops::Range<usize>,
+) -> SpanState {
+    let mut sum = SpanState::default();
+    let mut length = 0.0;
+    let mut e = vec![0.0; E::DOF];
+    let mut gathered = usize::MAX;
+    for i in range {
+        let point = &points[i % points.len()];
+        if point.element != gathered {
+            mesh.gather(point.element, &motion.q, &mut e);
+            gathered = point.element;
+        }
+        let element = &mesh.elements()[point.element];
+        let slope = element.slope(&e, point.xi);
+        let stretch = slope[0].hypot(slope[1]);
+        let along = (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch;
+        sum.tension += point.weight * element.axial_force(&e, point.xi);
+        sum.strain += point.weight * (stretch - 1.0);
+        sum.speed += point.weight * along;
+        length += point.weight;
+    }
+    SpanState {
+        tension: sum.tension / length,
+        strain: sum.strain / length,
+        speed: sum.speed / length,
     }
 }

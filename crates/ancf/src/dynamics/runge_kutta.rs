@@ -63,7 +63,7 @@ impl Scheme for RungeKutta4 {
         if to.a.iter().all(|x| x.is_finite()) {
             Ok(())
         } else {
-            Err(stage.diverged(to.time))
+            Err(NotConverged::diverged(to.time))
         }
     }
 }

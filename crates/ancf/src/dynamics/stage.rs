@@ -15,7 +15,7 @@
 use thiserror::Error;
 
 use super::{Motion, Statistics};
-use crate::linear::{BorderedMatrix, CyclicSolver, Solver};
+use crate::linear::{BorderedMatrix, CompressedRows, CyclicSolver, Solver};
 use crate::system::{Mechanics, State};
 
 /// Trials before a stage is given up.
@@ -41,6 +41,17 @@ pub struct NotConverged {
     pub coordinate: usize,
 }
 
+impl NotConverged {
+    /// The error for a state at `time` that is no longer finite.
+    pub(super) fn diverged(time: f64) -> Self {
+        Self {
+            time,
+            residual: f64::INFINITY,
+            coordinate: 0,
+        }
+    }
+}
+
 /// How position and velocity depend on the unknown acceleration of a stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageBase {
@@ -54,6 +65,7 @@ pub struct StageBase {
 #[derive(Debug)]
 pub struct Stage {
     tolerance: f64,
+    mass: CompressedRows,
     matrix: BorderedMatrix,
     solver: CyclicSolver,
     mass_solver: CyclicSolver,
@@ -88,6 +100,7 @@ impl Stage {
         }
         Self {
             tolerance,
+            mass: CompressedRows::new(system.mass()),
             matrix: BorderedMatrix::new(structure),
             solver: CyclicSolver::new(structure),
             mass_solver: CyclicSolver::new(structure),
@@ -134,15 +147,6 @@ impl Stage {
             motion.a.copy_from_slice(&self.force);
         } else {
             motion.a.fill(f64::NAN);
-        }
-    }
-
-    /// The error for a state at `time` that is no longer finite.
-    pub(super) fn diverged(&self, time: f64) -> NotConverged {
-        NotConverged {
-            time,
-            residual: f64::INFINITY,
-            coordinate: 0,
         }
     }
 
@@ -255,7 +259,7 @@ impl Stage {
         };
         system.force(state, &mut self.force);
         self.statistics.force_evaluations += 1;
-        system.mass().multiply(&motion.a, residual);
+        self.mass.multiply(&motion.a, residual);
         for i in 0..residual.len() {
             residual[i] = if self.fixed[i] {
                 0.0
