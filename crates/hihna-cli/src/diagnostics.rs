@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use hihna::input::{InputError, InputErrors};
 use hihna::record::RecordError;
 use hihna::simulate::RunError;
+use hihna::steady::string::StringError;
 use miette::{
     Diagnostic, LabeledSpan, MietteHandlerOpts, NamedSource, Report, Severity, SourceCode,
 };
@@ -22,6 +23,17 @@ pub enum Failure {
     /// The drive is wrong.
     #[error(transparent)]
     Input(#[from] InputErrors),
+    /// An argument asks for something that the program does not have.
+    #[error("{message}")]
+    Argument {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+    /// The steady state was not found; not known to happen.
+    #[error(transparent)]
+    Steady(StringError),
     /// The result folder cannot be made; nothing was run.
     #[error(transparent)]
     Folder(RecordError),
@@ -57,9 +69,10 @@ impl Failure {
     /// Exit status of the program: 2 if the user's input is to blame, 1 otherwise.
     pub fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Input(_) | Self::Folder(_) | Self::Run(RunError::Assembly(_)) => {
-                ExitCode::from(2)
-            }
+            Self::Input(_)
+            | Self::Argument { .. }
+            | Self::Folder(_)
+            | Self::Run(RunError::Assembly(_)) => ExitCode::from(2),
             _ => ExitCode::from(1),
         }
     }
@@ -101,6 +114,10 @@ impl Failure {
                 "try more `belt.elements`, a smaller `run.accuracy`, a lower `contact.stiffness` or a gentler speed; with `--set KEY=VALUE` the file can stay as it is"
             }
             Self::Run(RunError::Stopped { .. }) => "nothing was written",
+            Self::Argument { help, .. } => help,
+            Self::Steady(_) => {
+                "check stiffness, tension and torques of the drive for slips of the decimal point"
+            }
             Self::Record(_) => {
                 "nothing was kept; free some space or name another place with --out, then run again"
             }

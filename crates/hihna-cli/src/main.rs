@@ -9,6 +9,7 @@ mod quantities;
 mod run;
 mod schema;
 mod standard_output;
+mod steady;
 mod summary;
 mod tables;
 
@@ -30,6 +31,7 @@ Exit status: 0 done; 1 the run failed or its audit broke its tolerance; 2 the in
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Arguments),
+    Steady(steady::Arguments),
     Check(check::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
@@ -39,11 +41,13 @@ fn main() -> ExitCode {
     let command = Program::parse().command;
     let json = match &command {
         Command::Run(arguments) => arguments.json,
+        Command::Steady(arguments) => arguments.json,
         Command::Check(arguments) => arguments.json,
         Command::Schema(_) | Command::Completions(_) => false,
     };
     let result = match command {
         Command::Run(arguments) => run::run(&arguments),
+        Command::Steady(arguments) => steady::steady(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),

@@ -4,12 +4,11 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::drive::Drive;
-use crate::history::History;
 use crate::input;
-use crate::observe::ProfileRow;
 use crate::simulate::Outcome;
 use crate::summary::Summary;
 
@@ -42,10 +41,7 @@ pub enum RecordError {
 
 /// Checks that `dir` can be written, before a run is spent on it.
 pub fn check(dir: &Path, overwrite: bool) -> Result<(), RecordError> {
-    if dir.exists() && !overwrite {
-        return Err(RecordError::Exists { path: dir.into() });
-    }
-    staging(dir).map(drop)
+    Folder::new(dir, overwrite).map(drop)
 }
 
 /// Writes `outcome` of `drive` to the folder `dir`.
@@ -55,42 +51,113 @@ pub fn write(
     outcome: &Outcome,
     overwrite: bool,
 ) -> Result<(), RecordError> {
-    if dir.exists() && !overwrite {
-        return Err(RecordError::Exists { path: dir.into() });
-    }
-    let io_error = |cause| RecordError::Io {
-        path: dir.into(),
-        cause,
-    };
-    let folder = staging(dir)?;
-    let place = |name: &str| folder.path().join(name);
-    fs::write(place("drive.toml"), input::to_toml(drive)).map_err(io_error)?;
-    let summary = Summary::new(drive, outcome);
-    let mut text = serde_json::to_string_pretty(&summary).map_err(|cause| RecordError::Encode {
-        file: "summary.json",
-        cause: cause.into(),
+    let folder = Folder::new(dir, overwrite)?;
+    folder.text("drive.toml", &input::to_toml(drive))?;
+    folder.json("summary.json", &Summary::new(drive, outcome))?;
+    folder.csv("history.csv", |writer| {
+        writer.write_record(outcome.history.columns())?;
+        outcome
+            .history
+            .rows()
+            .try_for_each(|row| writer.serialize(row))
     })?;
-    text.push('\n');
-    fs::write(place("summary.json"), text).map_err(io_error)?;
-    write_history(&place("history.csv"), &outcome.history)
-        .map_err(|e| encode("history.csv", e, dir))?;
-    write_profile(&place("profile.csv"), &outcome.profile)
-        .map_err(|e| encode("profile.csv", e, dir))?;
+    folder.rows("profile.csv", &outcome.profile)?;
+    folder.finish()
+}
 
-    if dir.exists() {
-        // Keep the old folder until the new one stands in its place.
-        let old = staging(dir)?;
-        let aside = old.path().join("old");
-        fs::rename(dir, &aside).map_err(io_error)?;
-        if let Err(cause) = fs::rename(folder.path(), dir) {
-            let _ = fs::rename(&aside, dir);
-            return Err(io_error(cause));
-        }
-    } else {
-        fs::rename(folder.path(), dir).map_err(io_error)?;
+/// A result folder in the making. Its files stand in a hidden folder beside its place until
+/// [`Folder::finish`]; dropped before that, it leaves nothing.
+#[derive(Debug)]
+pub struct Folder {
+    place: PathBuf,
+    overwrite: bool,
+    files: tempfile::TempDir,
+}
+
+impl Folder {
+    /// An empty folder that is to stand at `place`; there may be one already if `overwrite`.
+    pub fn new(place: &Path, overwrite: bool) -> Result<Self, RecordError> {
+        check_free(place, overwrite)?;
+        Ok(Self {
+            place: place.into(),
+            overwrite,
+            files: staging(place)?,
+        })
     }
-    // The folder has moved: there is nothing left to clean up.
-    let _ = folder.keep();
+
+    /// Adds a file of text.
+    pub fn text(&self, name: &'static str, text: &str) -> Result<(), RecordError> {
+        fs::write(self.files.path().join(name), text).map_err(|cause| self.refused(cause))
+    }
+
+    /// Adds a JSON file.
+    pub fn json(&self, name: &'static str, value: &impl Serialize) -> Result<(), RecordError> {
+        let text = serde_json::to_string_pretty(value).map_err(|cause| RecordError::Encode {
+            file: name,
+            cause: cause.into(),
+        })?;
+        self.text(name, &(text + "\n"))
+    }
+
+    /// Adds a CSV file whose columns are the fields of its rows.
+    pub fn rows(&self, name: &'static str, rows: &[impl Serialize]) -> Result<(), RecordError> {
+        self.csv(name, |writer| {
+            rows.iter().try_for_each(|row| writer.serialize(row))
+        })
+    }
+
+    /// Puts the folder in its place, whole.
+    pub fn finish(self) -> Result<(), RecordError> {
+        check_free(&self.place, self.overwrite)?;
+        let (place, files) = (&self.place, self.files.path());
+        if place.exists() {
+            // Keep the old folder until the new one stands in its place.
+            let old = staging(place)?;
+            let aside = old.path().join("old");
+            fs::rename(place, &aside).map_err(|cause| self.refused(cause))?;
+            if let Err(cause) = fs::rename(files, place) {
+                let _ = fs::rename(&aside, place);
+                return Err(self.refused(cause));
+            }
+        } else {
+            fs::rename(files, place).map_err(|cause| self.refused(cause))?;
+        }
+        // The folder has moved: there is nothing left to clean up.
+        let _ = self.files.keep();
+        Ok(())
+    }
+
+    fn csv(
+        &self,
+        name: &'static str,
+        write: impl FnOnce(&mut csv::Writer<fs::File>) -> Result<(), csv::Error>,
+    ) -> Result<(), RecordError> {
+        let written =
+            csv::Writer::from_path(self.files.path().join(name)).and_then(|mut writer| {
+                write(&mut writer)?;
+                Ok(writer.flush()?)
+            });
+        written.map_err(|error| match error.into_kind() {
+            csv::ErrorKind::Io(cause) => self.refused(cause),
+            other => RecordError::Encode {
+                file: name,
+                cause: format!("{other:?}").into(),
+            },
+        })
+    }
+
+    fn refused(&self, cause: io::Error) -> RecordError {
+        RecordError::Io {
+            path: self.place.clone(),
+            cause,
+        }
+    }
+}
+
+fn check_free(place: &Path, overwrite: bool) -> Result<(), RecordError> {
+    if place.exists() && !overwrite {
+        return Err(RecordError::Exists { path: place.into() });
+    }
     Ok(())
 }
 
@@ -112,34 +179,4 @@ fn staging(dir: &Path) -> Result<tempfile::TempDir, RecordError> {
         path: dir.into(),
         cause,
     })
-}
-
-fn encode(file: &'static str, error: csv::Error, dir: &Path) -> RecordError {
-    match error.into_kind() {
-        csv::ErrorKind::Io(cause) => RecordError::Io {
-            path: dir.into(),
-            cause,
-        },
-        other => RecordError::Encode {
-            file,
-            cause: format!("{other:?}").into(),
-        },
-    }
-}
-
-fn write_history(path: &Path, history: &History) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_path(path)?;
-    writer.write_record(history.columns())?;
-    for row in history.rows() {
-        writer.serialize(row)?;
-    }
-    Ok(writer.flush()?)
-}
-
-fn write_profile(path: &Path, profile: &[ProfileRow]) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_path(path)?;
-    for row in profile {
-        writer.serialize(row)?;
-    }
-    Ok(writer.flush()?)
 }

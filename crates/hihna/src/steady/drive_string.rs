@@ -8,6 +8,8 @@
 //! path of rigid pulleys. Bending, shear, penetration and the creep slope of the friction law have
 //! no place in this theory.
 
+use serde::Serialize;
+
 use crate::drive::{Belt, Drive, Friction, Pulley};
 use crate::layout::{Layout, LayoutError};
 use crate::profile::{Profile, Varying};
@@ -32,9 +34,10 @@ pub struct DriveString {
 }
 
 /// The state of a pulley, signs counter-clockwise, vectors in the drive's axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PulleySummary {
     /// Name.
+    #[serde(skip)]
     pub name: String,
     /// Angular speed [rad/s].
     pub speed: f64,
@@ -62,9 +65,10 @@ pub struct PulleySummary {
 }
 
 /// The state of a span.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpanSummary {
     /// `<from>-<to>`, in the drive's order.
+    #[serde(skip)]
     pub name: String,
     /// Axial force [N].
     pub tension: f64,
@@ -254,6 +258,27 @@ impl DriveString {
             .collect()
     }
 
+    /// The largest torque that may brake the pulley of index `pulley` in the drive if it is the only
+    /// load [N m]; none for the speed-controlled pulley or where the belt is slack.
+    pub fn largest_load(&self, pulley: usize) -> Result<Option<f64>, SteadyError> {
+        let loaded = self.string_pulley(pulley);
+        let mut alone = self.clone();
+        for (j, other) in alone.string.pulleys.iter_mut().enumerate() {
+            match &mut other.role {
+                Role::SpeedControlled(_) if j == loaded => return Ok(None),
+                Role::SpeedControlled(_) => {}
+                // The capacity does not depend on how large the torque is.
+                Role::Torque(torque) => *torque = if j == loaded { -1.0 } else { 0.0 },
+            }
+        }
+        Ok(match alone.solve()? {
+            // A factor on 1 N m.
+            Answer::Running(running) => running.capacity.map(|capacity| capacity.factor),
+            Answer::GrossSlip(slip) => Some(slip.capacity.factor),
+            Answer::Slack(_) => None,
+        })
+    }
+
     /// What gross slip means, in a sentence.
     pub fn explain_gross_slip(&self, slip: &GrossSlip) -> String {
         let Capacity {
@@ -316,7 +341,7 @@ impl DriveString {
     }
 
     /// Index in the layout of the span that the string counts as behind its pulley `j`.
-    fn span_behind(&self, j: usize) -> usize {
+    pub fn span_behind(&self, j: usize) -> usize {
         let count = self.names.len();
         let i = self.order[j];
         if self.direction > 0.0 {
@@ -326,7 +351,8 @@ impl DriveString {
         }
     }
 
-    fn span_name(&self, span: usize) -> String {
+    /// Name of the span of index `span` in the drive's layout.
+    pub fn span_name(&self, span: usize) -> String {
         format!(
             "{}-{}",
             self.names[span],

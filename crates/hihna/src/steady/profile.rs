@@ -7,51 +7,12 @@
 //! Green (lambda² - 1)/2,   engineering lambda - 1,   true 1 - 1/lambda (4.10),   Almansi (1 - 1/lambda²)/2,   jacobian lambda.
 //! ```
 //! Contact forces are per length of the unstretched belt, as the finite elements have them (THEORY
-//! 2.2, eq. 3.20): lambda times those per length of the running belt.
-
-use serde::Serialize;
+//! 2.2, eq. 3.20): lambda times those per length of the running belt. Time is zero.
 
 use crate::layout::Arc;
+use crate::observe::ProfileRow;
 use crate::steady::drive_string::DriveString;
 use crate::steady::string::{BeltState, Running};
-
-/// A point of the belt, named as the columns of `profile.csv`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ProfileRow {
-    /// Time [s]; zero in steady running.
-    pub time: f64,
-    /// Unstretched length of belt from mid-wrap of the first pulley [m].
-    pub material_coordinate: f64,
-    /// Position [m].
-    pub x: f64,
-    /// Position [m].
-    pub y: f64,
-    /// Position [m].
-    pub z: f64,
-    /// Axial force [N].
-    pub tension: f64,
-    /// Green strain [-].
-    pub strain_green: f64,
-    /// Engineering strain [-].
-    pub strain_engineering: f64,
-    /// Change of length over the length now [-].
-    pub strain_true: f64,
-    /// Almansi strain [-].
-    pub strain_almansi: f64,
-    /// Length now over unstretched length [-].
-    pub jacobian: f64,
-    /// Belt speed, positive along growing material coordinate [m/s].
-    pub speed: f64,
-    /// Force of the pulley on the belt, away from its centre, per unstretched length [N/m].
-    pub normal_force: f64,
-    /// Force of the pulley on the belt, positive along growing material coordinate, per unstretched
-    /// length [N/m].
-    pub friction_force: f64,
-    /// Belt speed less surface speed, positive along growing material coordinate [m/s].
-    pub slip_speed: f64,
-    /// Name of the pulley under the belt; empty in a free span.
-    pub pulley: Option<String>,
-}
 
 /// A part of an arc in which nothing jumps, `from` and `to` measured from the arc's first point of
 /// the path [rad].
@@ -221,7 +182,7 @@ impl Rows<'_> {
             normal_force: stretch * state.normal_force,
             friction_force: along * stretch * state.friction_force,
             slip_speed: along * state.slip_speed,
-            pulley: pulley.map(|i| self.drive.names[i].clone()),
+            pulley: pulley.map_or_else(String::new, |i| self.drive.names[i].clone()),
         });
     }
 }

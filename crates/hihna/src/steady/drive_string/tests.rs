@@ -193,8 +193,8 @@ fn profile_rows_integrate_to_the_torques() {
             let moved = (pair[1].x - pair[0].x).hypot(pair[1].y - pair[0].y);
             let stretch = 0.5 * (pair[0].jacobian + pair[1].jacobian);
             assert!((moved - step * stretch).abs() < 1.0e-7);
-            if let (Some(name), true) = (&pair[0].pulley, pair[0].pulley == pair[1].pulley) {
-                let i = drive.pulley.iter().position(|p| p.name == *name).unwrap();
+            let on = drive.pulley.iter().position(|p| p.name == pair[0].pulley);
+            if let (Some(i), true) = (on, pair[0].pulley == pair[1].pulley) {
                 let friction = 0.5 * (pair[0].friction_force + pair[1].friction_force);
                 let sign = prepared.layout.arcs[i].sweep.signum();
                 torques[i] -= sign * drive.pulley[i].radius * friction * step;

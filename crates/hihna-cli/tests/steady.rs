@@ -1,0 +1,398 @@
+//! `hihna steady` as users and scripts see it.
+
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const MODEL_2: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../examples/string_model_2.toml"
+);
+
+fn steady(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hihna"))
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .arg("steady")
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// Standard output and standard error of a call that must end with `status`.
+fn told(folder: &Path, arguments: &[&str], status: i32) -> (String, String) {
+    let output = steady(folder, arguments);
+    assert_eq!(output.status.code(), Some(status), "{output:?}");
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (text(output.stdout), text(output.stderr))
+}
+
+/// The object of a successful call with `--json`.
+fn object(folder: &Path, arguments: &[&str]) -> Value {
+    let (stdout, _) = told(folder, &[arguments, &["--json"]].concat(), 0);
+    serde_json::from_str(&stdout).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// The speed losses of Kerkkänen (2006), Figs 4.11, 4.14 and (4.48), in the table and in JSON: half
+/// of the last digit.
+#[test]
+fn published_speed_losses() {
+    let folder = TempDir::new().unwrap();
+    let stiff = ["--set", "belt.youngs_modulus=250 MPa"];
+    let cases: [(&[&str], &str, f64); 3] = [
+        (&[], "Speed loss: 15.16 %", 0.1516),
+        (&["--model", "capstan"], "Speed loss: 14.71 %", 0.1471),
+        (&stiff, "Speed loss: 0.1596 %", 0.001_596),
+    ];
+    for (arguments, line, loss) in cases {
+        let arguments = [&[MODEL_2], arguments].concat();
+        let (table, warnings) = told(folder.path(), &arguments, 0);
+        assert!(table.contains(line), "{table}");
+        assert_eq!(warnings, "");
+        let answer = object(folder.path(), &arguments);
+        let found = number(&answer["steady"]["speed_loss"]);
+        assert!((found - loss).abs() < 0.5e-3 * loss, "{found}");
+        assert_eq!(answer["steady"]["pulley"]["driven"]["speed_loss"], found);
+    }
+    assert!(names(folder.path()).is_empty(), "nothing is written");
+}
+
+#[test]
+fn the_table_has_everything_with_units() {
+    let folder = TempDir::new().unwrap();
+    let (table, _) = told(folder.path(), &[MODEL_2], 0);
+    // Power of the load: 2 N m at 0.8484 of 500 rad/s. Both pulleys: 500 rad/s are 4775 rpm.
+    for part in [
+        "Model 2 of Table 4.1",
+        "full inertia",
+        "Friction coefficient 0.6; the slope of law `creep-rate` plays no part",
+        "Axial stiffness 200.0 N, 0.02000 kg/m per unstretched length, 50.00 N at rest",
+        "external torque",
+        "slip",
+        "stick",
+        "180.00°",
+        "hub force",
+        "500.0 rad/s",
+        "4775 rpm",
+        "-2.000 N m",
+        "driver-driven",
+        "driven-driver",
+        "tension",
+        "belt speed",
+        "25.00 m/s",
+        "strain",
+        "848.4 W out",
+        "Efficiency: 84.84 %",
+        "Safety against gross slip: ",
+        "times the torques",
+        "Largest torque: ",
+    ] {
+        assert!(table.contains(part), "{part}:\n{table}");
+    }
+}
+
+/// Keys as in the summary of a run, and the balances between the numbers.
+#[test]
+fn the_object_is_consistent() {
+    let folder = TempDir::new().unwrap();
+    let answer = object(folder.path(), &[MODEL_2]);
+    assert_eq!(answer["answer"], "running");
+    assert_eq!(answer["model"]["theory"], "string");
+    assert_eq!(answer["model"]["inertia"], "full");
+    assert_eq!(answer["model"]["closure"], "length");
+    let steady = &answer["steady"];
+    for key in [
+        "speed",
+        "torque",
+        "external_torque",
+        "power",
+        "slip_speed",
+        "wrap_angle",
+        "slip_angle",
+        "stick_angle",
+        "speed_loss",
+        "friction_loss",
+    ] {
+        assert!(steady["pulley"]["driver"][key].is_f64(), "{key}");
+    }
+    let (driver, driven) = (&steady["pulley"]["driver"], &steady["pulley"]["driven"]);
+    assert!((number(&driven["external_torque"]) + 2.0).abs() < 1.0e-10);
+    assert!((number(&driven["slip_angle"]) + number(&driven["stick_angle"]) - PI).abs() < 1.0e-10);
+    assert!(number(&driver["power"]) > 0.0);
+    // The torque is R times the difference of axial force less momentum flow.
+    let pressing = |span: &str| number(&steady["span"][span]["pressing_tension"]);
+    let torque = 0.05 * (pressing("driven-driver") - pressing("driver-driven"));
+    assert!((torque - 2.0).abs() < 1.0e-10);
+    let power = |key: &str| number(&steady[key]);
+    assert!((power("power_in") - power("power_out") - power("power_lost")).abs() < 1.0e-8);
+    assert!((power("efficiency") - power("power_out") / power("power_in")).abs() < 1.0e-12);
+    assert!(
+        number(&steady["span"]["driven-driver"]["tension"])
+            > number(&steady["span"]["driver-driven"]["tension"])
+    );
+    let capacity = &answer["capacity"];
+    assert!(number(&capacity["factor"]) > 1.0);
+    assert!(
+        (number(&capacity["torque"]["driven"]) + number(&capacity["largest_torque"])).abs() < 1.0e-9
+    );
+    assert!(
+        (number(&capacity["largest_torque"]) - 2.0 * number(&capacity["factor"])).abs() < 1.0e-9
+    );
+}
+
+#[test]
+fn the_closure_can_be_the_tension_sum() {
+    let folder = TempDir::new().unwrap();
+    let answer = object(folder.path(), &[MODEL_2, "--closure", "tension-sum"]);
+    let span = &answer["steady"]["span"];
+    let sum = number(&span["driver-driven"]["tension"]) + number(&span["driven-driver"]["tension"]);
+    assert!((sum - 100.0).abs() < 1.0e-9);
+    assert_eq!(answer["model"]["closure"], "tension-sum");
+}
+
+/// The built-in drive has no load: equal tensions, no power, and the largest load that it could have.
+#[test]
+fn the_built_in_drive_idles() {
+    let folder = TempDir::new().unwrap();
+    let answer = object(folder.path(), &[]);
+    let steady = &answer["steady"];
+    assert_eq!(answer["answer"], "running");
+    assert_eq!(answer["capacity"], Value::Null);
+    assert_eq!(steady["efficiency"], Value::Null);
+    assert_eq!(number(&steady["speed_loss"]), 0.0);
+    assert_eq!(
+        steady["span"]["driver-driven"]["tension"],
+        steady["span"]["driven-driver"]["tension"]
+    );
+    let largest = number(&answer["largest_load"]["driven"]);
+    assert!(answer["largest_load"]["driver"].is_null());
+    // Just below and just above it.
+    for (factor, expected) in [(0.999, "running"), (1.001, "gross-slip")] {
+        let torque = format!("pulley.driven.torque={}", -factor * largest);
+        let answer = object(folder.path(), &["--set", &torque]);
+        assert_eq!(answer["answer"], expected);
+    }
+    let (table, _) = told(folder.path(), &[], 0);
+    for part in [
+        "12.00 rad/s",
+        "no torque is transmitted",
+        " 0.00°",
+        "as the only load",
+        "Efficiency: none",
+    ] {
+        assert!(table.contains(part), "{part}:\n{table}");
+    }
+}
+
+#[test]
+fn gross_slip_is_an_answer() {
+    let folder = TempDir::new().unwrap();
+    let arguments = [MODEL_2, "--set", "pulley.driven.torque=-4"];
+    let answer = object(folder.path(), &arguments);
+    assert_eq!(answer["answer"], "gross-slip");
+    assert!(answer["steady"].is_null());
+    let slip = &answer["gross_slip"];
+    assert!(["driver", "driven"].contains(&slip["pulley"].as_str().unwrap()));
+    assert!((number(&slip["wrap_angle"]) - PI).abs() < 1.0e-12);
+    let capacity = &answer["capacity"];
+    assert!(number(&capacity["factor"]) < 1.0);
+    assert!(
+        (number(&capacity["largest_torque"]) - 4.0 * number(&capacity["factor"])).abs() < 1.0e-9
+    );
+    let (words, _) = told(folder.path(), &arguments, 0);
+    for part in ["Gross slip on pulley", "Largest torque: ", "N m"] {
+        assert!(words.contains(part), "{part}:\n{words}");
+    }
+    assert!(!words.contains("Efficiency"), "{words}");
+    // A little too much torque: so and so many degrees beyond the wrap.
+    let little = format!(
+        "pulley.driven.torque={}",
+        -1.001 * number(&capacity["largest_torque"])
+    );
+    let arguments = [MODEL_2, "--set", &little];
+    let slip = &object(folder.path(), &arguments)["gross_slip"];
+    assert!(number(&slip["slip_angle"]) > PI);
+    assert!((number(&slip["excess_angle"]) + PI - number(&slip["slip_angle"])).abs() < 1.0e-12);
+    let (words, _) = told(folder.path(), &arguments, 0);
+    assert!(words.contains("degrees of slip"), "{words}");
+}
+
+/// At 3000 rad/s a belt of 0.02 kg/m would need far more than 50 N to stay on the pulleys.
+#[test]
+fn slack_is_an_answer() {
+    let folder = TempDir::new().unwrap();
+    let arguments = [
+        MODEL_2,
+        "--set",
+        "belt.youngs_modulus=250 MPa",
+        "--set",
+        "pulley.driver.speed=3000",
+        "--set",
+        "pulley.driven.torque=0",
+    ];
+    let answer = object(folder.path(), &arguments);
+    assert_eq!(answer["answer"], "slack");
+    let slack = &answer["slack"];
+    assert!(number(&slack["needed_tension"]) > number(&slack["tension"]));
+    let (words, _) = told(folder.path(), &arguments, 0);
+    assert!(words.contains("The belt is slack"), "{words}");
+}
+
+#[test]
+fn out_writes_a_whole_folder() {
+    let folder = TempDir::new().unwrap();
+    let (table, _) = told(folder.path(), &[MODEL_2, "--out", "here"], 0);
+    assert!(table.contains("Results: here"), "{table}");
+    assert_eq!(names(folder.path()), ["here"], "nothing else is left");
+    let here = folder.path().join("here");
+    assert_eq!(names(&here), ["drive.toml", "profile.csv", "summary.json"]);
+    let profile = fs::read_to_string(here.join("profile.csv")).unwrap();
+    assert_eq!(
+        profile.lines().next().unwrap(),
+        "time,material_coordinate,x,y,z,tension,strain_green,strain_engineering,strain_true,\
+         strain_almansi,jacobian,speed,normal_force,friction_force,slip_speed,pulley"
+    );
+    assert!(profile.lines().count() > 400);
+    // The drive as written gives the same answer.
+    let written: Value =
+        serde_json::from_str(&fs::read_to_string(here.join("summary.json")).unwrap()).unwrap();
+    assert_eq!(object(folder.path(), &["here/drive.toml"]), written);
+    // Kept unless forced; a drive that slips has no profile.
+    let again = [
+        MODEL_2,
+        "--out",
+        "here",
+        "--set",
+        "pulley.driven.torque=-40",
+    ];
+    let (_, message) = told(folder.path(), &again, 2);
+    assert!(message.contains("--force"), "{message}");
+    assert_eq!(names(&here).len(), 3);
+    told(folder.path(), &[&again[..], &["--force"]].concat(), 0);
+    assert_eq!(names(&here), ["drive.toml", "summary.json"]);
+    assert_eq!(names(folder.path()), ["here"], "nothing else is left");
+}
+
+#[test]
+fn bad_input_is_named_with_what_to_change() {
+    let folder = TempDir::new().unwrap();
+    let example = fs::read_to_string(MODEL_2).unwrap();
+    let speed = "speed = { kind = \"ramp\", from = 0.0, to = 500.0, start = 0.0, end = 0.5 }";
+    assert!(example.contains(speed));
+    let none = example.replacen(speed, "inertia = 0.1", 1);
+    let angle = example.replacen(
+        speed,
+        "angle = { kind = \"ramp\", to = 500.0, end = 1.0 }",
+        1,
+    );
+    let angle = angle.replacen("ramp\", to", "ramp\", from = 0.0, start = 0.0, to", 1);
+    fs::write(folder.path().join("none.toml"), none).unwrap();
+    fs::write(folder.path().join("angle.toml"), angle).unwrap();
+    let cases: [(&[&str], &str, &[&str]); 7] = [
+        (
+            &["none.toml"],
+            "pulley",
+            &["no pulley drives the belt", "speed"],
+        ),
+        (
+            &["angle.toml"],
+            "pulley.driver.angle",
+            &["\"driver\"", "driven by its `angle`", "give its `speed`"],
+        ),
+        (
+            &[
+                MODEL_2,
+                "--set",
+                "pulley.driven.speed=400",
+                "--set",
+                "pulley.driven.torque=0",
+            ],
+            "pulley.driven.speed",
+            &["\"driver\" and \"driven\"", "exactly one"],
+        ),
+        (
+            &[MODEL_2, "--set", "pulley.driver.torque=1"],
+            "pulley.driver.torque",
+            &["prescribed motion and a torque", "remove `torque`"],
+        ),
+        (
+            &[MODEL_2, "--set", "pulley.driver.speed=0"],
+            "pulley.driver.speed",
+            &["0 rad/s", "one that turns"],
+        ),
+        (
+            &[MODEL_2, "--set", "belt.tension=-5"],
+            "belt.tension",
+            &["belt.tension"],
+        ),
+        (
+            &[MODEL_2, "--set", "contact.friction.coefficient=-0.6"],
+            "contact.friction.coefficient",
+            &["coefficient"],
+        ),
+    ];
+    for (arguments, field, parts) in cases {
+        let (stdout, message) = told(folder.path(), arguments, 2);
+        assert_eq!(stdout, "");
+        for part in parts {
+            assert!(message.contains(part), "{part}:\n{message}");
+        }
+        let (stdout, _) = told(folder.path(), &[arguments, &["--json"]].concat(), 2);
+        let errors: Value = serde_json::from_str(&stdout).unwrap();
+        assert_eq!(errors["errors"][0]["field"], field);
+    }
+}
+
+#[test]
+fn bad_arguments_have_status_two() {
+    let folder = TempDir::new().unwrap();
+    let (stdout, message) = told(folder.path(), &["--model", "fe"], 2);
+    assert_eq!(stdout, "");
+    for part in [
+        "not available in this version",
+        "`full`, `centrifugal` and `capstan`",
+    ] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    let (stdout, _) = told(folder.path(), &["--model", "fe", "--json"], 2);
+    let errors: Value = serde_json::from_str(&stdout).unwrap();
+    assert!(errors["errors"][0]["help"].is_string());
+    let cases: [&[&str]; 5] = [
+        &["--model", "fem"],
+        &["--closure", "none"],
+        &["--force"],
+        &["no-such-file.toml"],
+        &["--out", "no/such/folder"],
+    ];
+    for arguments in cases {
+        let (_, message) = told(folder.path(), arguments, 2);
+        assert!(!message.is_empty(), "{arguments:?}");
+    }
+    assert!(names(folder.path()).is_empty());
+}
+
+#[test]
+fn gravity_is_said_to_play_no_part() {
+    let folder = TempDir::new().unwrap();
+    let (_, message) = told(folder.path(), &["--set", "gravity=[0.0, -9.81]"], 0);
+    assert!(message.contains("gravity plays no part"), "{message}");
+}
