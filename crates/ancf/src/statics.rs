@@ -1,4 +1,4 @@
-//! Static equilibrium by Newton's method with a shrinking shift and natural monotonicity.
+//! Static equilibrium by Newton's method with a shrinking shift and a line search.
 //!
 //! Solves `f(q, 0) = 0` for the coordinates that are not prescribed:
 //!
@@ -9,12 +9,22 @@
 //! The shift `sigma` [1/s²] starts large, so that the first steps follow the forces like a heavily
 //! damped motion, and shrinks with every good step until the plain Newton step remains. It also keeps
 //! rigid motions without stiffness (a belt sliding along itself) from making the matrix singular.
-//! `s` is halved until the next correction is smaller (natural monotonicity), steps are capped.
+//! `s` is halved until the step does not overshoot, `f(q + s b).b >= -(1 - s/10) f(q).b`: to second
+//! order the potential then falls. Unlike a test of norms this is not upset by the kinks of contact or
+//! by directions of negative stiffness. Steps are capped; where `b` leads uphill the shift grows again.
 
 use thiserror::Error;
 
 use crate::linear::{BorderedMatrix, CyclicSolver, Solver};
 use crate::system::{Mechanics, State};
+
+/// Part of the first shift below which a correction counts as Newton's own.
+const NEGLIGIBLE_SHIFT: f64 = 1.0e-6;
+
+/// How far from turning the forces' work along the correction around a step must stay.
+const LINE_SEARCH: f64 = 0.1;
+/// Halvings of a step before the shift is raised.
+const MAX_HALVINGS: usize = 12;
 
 /// How to look for the equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +93,7 @@ pub fn settle(
     let mut force = vec![0.0; size];
     let mut correction = vec![0.0; size];
     let mut trial = q.to_vec();
+    let mut trial_force = vec![0.0; size];
     let mut shift = options.shift;
     let mut last = (f64::INFINITY, 0);
 
@@ -114,36 +125,45 @@ pub fn settle(
         solver.solve(&mut correction);
         let size_now = norm(&correction, &scales);
         last = size_now;
-        if size_now.0 < options.tolerance && shift < options.shift * 1.0e-6 {
+        if size_now.0 < options.tolerance {
             for (x, b) in q.iter_mut().zip(&correction) {
                 *x += b;
             }
-            return Ok(Settled {
-                iterations: iteration,
-                correction: size_now.0,
-            });
+            let negligible = NEGLIGIBLE_SHIFT * options.shift;
+            if shift <= negligible {
+                return Ok(Settled {
+                    iterations: iteration,
+                    correction: size_now.0,
+                });
+            }
+            // At rest under the shift: ask again without it.
+            shift = negligible;
+            continue;
         }
+        // Work of the forces along the correction: positive where it leads downhill.
+        let descent = dot(&force, &correction);
         let mut damping = (options.step_limit / size_now.0).min(1.0);
         let mut accepted = false;
-        for _ in 0..12 {
-            for i in 0..size {
-                trial[i] = q[i] + damping * correction[i];
+        if descent > 0.0 {
+            for _ in 0..MAX_HALVINGS {
+                for i in 0..size {
+                    trial[i] = q[i] + damping * correction[i];
+                }
+                evaluate(system, &trial, &mut trial_force);
+                if dot(&trial_force, &correction) >= -(1.0 - LINE_SEARCH * damping) * descent {
+                    accepted = true;
+                    break;
+                }
+                damping *= 0.5;
             }
-            evaluate(system, &trial, &mut force);
-            solver.solve(&mut force);
-            let next = norm(&force, &scales).0;
-            if next <= (1.0 - 0.25 * damping) * size_now.0 {
-                accepted = true;
-                break;
-            }
-            damping *= 0.5;
         }
         if accepted {
             q.copy_from_slice(&trial);
-            shift *= options.shrink;
+            shift = (shift * options.shrink).max(NEGLIGIBLE_SHIFT * options.shift);
         } else {
             // Less far, more along the forces.
-            shift = (shift / options.shrink.powi(3)).max(options.shift * 1.0e-9);
+            shift = (shift / options.shrink.powi(3))
+                .clamp(NEGLIGIBLE_SHIFT * options.shift, options.shift);
             if !size_now.0.is_finite() {
                 break;
             }
@@ -154,6 +174,10 @@ pub fn settle(
         correction: last.0,
         coordinate: last.1,
     })
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Largest scaled entry and where it is; NaN counts as infinite.

@@ -9,7 +9,9 @@ use hihna::drive::{Drive, Friction};
 use hihna::input::{self, FieldPath, InputError, InputErrors, Problem};
 use hihna::record::Folder;
 use hihna::steady::drive_string::{DriveString, PulleySummary, SpanSummary, SteadyError};
-use hihna::steady::string::{Answer, Capacity, Closure, GrossSlip, Model, Role, Running, Tightness};
+use hihna::steady::string::{
+    Answer, Capacity, Closure, GrossSlip, Model, Role, Running, Tightness,
+};
 use hihna::summary::Named;
 use serde::Serialize;
 

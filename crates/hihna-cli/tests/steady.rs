@@ -152,7 +152,8 @@ fn the_object_is_consistent() {
     let capacity = &answer["capacity"];
     assert!(number(&capacity["factor"]) > 1.0);
     assert!(
-        (number(&capacity["torque"]["driven"]) + number(&capacity["largest_torque"])).abs() < 1.0e-9
+        (number(&capacity["torque"]["driven"]) + number(&capacity["largest_torque"])).abs()
+            < 1.0e-9
     );
     assert!(
         (number(&capacity["largest_torque"]) - 2.0 * number(&capacity["factor"])).abs() < 1.0e-9
