@@ -9,7 +9,9 @@
 //! The shift `sigma` [1/s²] starts large, so that the first steps follow the forces like a heavily
 //! damped motion, and shrinks with every good step until the plain Newton step remains. It also keeps
 //! rigid motions without stiffness (a belt sliding along itself) from making the matrix singular.
-//! `s` is halved until the next correction is smaller (natural monotonicity), steps are capped.
+//! `s` is halved until the next correction of the shifted equation `f(q) - sigma M (q - q0) = 0` is
+//! smaller (natural monotonicity), steps are capped. The unshifted residual would not do: under a
+//! large shift soft modes hardly move, so it cannot fall by the part asked for.
 
 use thiserror::Error;
 
@@ -82,6 +84,7 @@ pub fn settle(
     let mut solver = CyclicSolver::new(structure);
     let mut force = vec![0.0; size];
     let mut correction = vec![0.0; size];
+    let mut inertia = vec![0.0; size];
     let mut trial = q.to_vec();
     let mut shift = options.shift;
     let mut last = (f64::INFINITY, 0);
@@ -123,6 +126,7 @@ pub fn settle(
                 correction: size_now.0,
             });
         }
+        system.mass().multiply(&correction, &mut inertia);
         let mut damping = (options.step_limit / size_now.0).min(1.0);
         let mut accepted = false;
         for _ in 0..12 {
@@ -130,9 +134,14 @@ pub fn settle(
                 trial[i] = q[i] + damping * correction[i];
             }
             evaluate(system, &trial, &mut force);
+            for ((value, held_back), is_fixed) in force.iter_mut().zip(&inertia).zip(&fixed) {
+                if !*is_fixed {
+                    *value -= damping * shift * held_back;
+                }
+            }
             solver.solve(&mut force);
             let next = norm(&force, &scales).0;
-            if next <= (1.0 - 0.25 * damping) * size_now.0 {
+            if next <= (1.0 - 0.25 * damping) * size_now.0 || next < options.tolerance {
                 accepted = true;
                 break;
             }
