@@ -73,7 +73,7 @@ fn thrown(elements: usize) -> Motion {
 }
 
 const ELEMENTS: usize = 4;
-/// Flight time [s]: a third of a turn of the slowest bending mode.
+/// Flight time [s].
 const FLIGHT: f64 = 0.004;
 
 fn fly(mut scheme: impl Scheme, steps: usize) -> Motion {
@@ -127,7 +127,7 @@ fn invariants(motion: &Motion) -> ([f64; 2], f64, f64) {
 }
 
 /// Orders from errors at `steps` and twice as many, against Runge-Kutta with 40,000 steps, whose own
-/// error is below 1e-16 m. Steps are short enough for the stiff axial and thickness modes to be
+/// error is round-off. Steps are short enough for the stiff axial and thickness modes to be
 /// resolved; half a percent of the ratio remains from terms of higher order: orders to 0.1.
 fn assert_order(run: impl Fn(usize) -> Motion, steps: usize, order: f64) {
     let reference = fly(RungeKutta4::new(NODE * (ELEMENTS + 1)), 40_000);
@@ -193,7 +193,7 @@ fn free_flight_keeps_momentum_and_to_the_order_of_the_scheme_energy() {
     }
 }
 
-/// The driver of steps: every kink is the end of a step, bit for bit; with step control the energy of
+/// The driver of steps: every kink is the end of a step, to the last digit; with step control the energy of
 /// the free flight stays within the tolerance asked for (1e-4 of a speed of 3.6 m/s, twice in the
 /// square: 1e-4 relative with room for the accumulation over the flight).
 #[test]
@@ -270,8 +270,8 @@ impl ForceLaw for Cantilever {
     }
 }
 
-/// The tip of the cantilever with `elements` elements under `F L² / E I = 1`: a deflection of a third
-/// of the span.
+/// The tip of the cantilever with `elements` elements under `F L² / E I = 1`: a deflection of more
+/// than a quarter of the span.
 fn tip(elements: usize, held: bool) -> Result<[f64; 2], StaticsError> {
     let law = Cantilever {
         position: if held { 100.0 } else { 0.0 },
