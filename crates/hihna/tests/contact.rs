@@ -223,7 +223,7 @@ fn check_every_entry<F: FrictionLaw>(friction: F, clamp: bool) {
     }
 }
 
-fn check_with<F: FrictionLaw>(friction: F) {
+fn check_with<F: FrictionLaw>(friction: &F) {
     let (q, v) = wobbling_loop();
     for clamp in [false, true] {
         let [stick, slip, pull] = regimes(&contact(friction.clone(), clamp), &q, &v);
@@ -237,12 +237,12 @@ fn check_with<F: FrictionLaw>(friction: F) {
 
 #[test]
 fn every_entry_of_the_tangent_under_creep_rate_friction() {
-    check_with(CREEP);
+    check_with(&CREEP);
 }
 
 #[test]
 fn every_entry_of_the_tangent_under_coulomb_friction() {
-    check_with(COULOMB);
+    check_with(&COULOMB);
 }
 
 #[test]
@@ -277,7 +277,10 @@ fn check_every_entry_frictionless() {
     }
     let forces = force(&mut law, &q, &v);
     assert!(forces[CHAIN] == 0.0, "no torque of the belt");
-    assert!(forces[CHAIN + 1] == -0.7, "the external torque alone");
+    assert!(
+        (forces[CHAIN + 1] + 0.7).abs() < 1.0e-15,
+        "the external torque alone"
+    );
 }
 
 /// What contact does to the belt and the pulleys balances (3.20-3.26, exact identities of the
