@@ -24,6 +24,10 @@ const REFERENCE_ACCURACY: f64 = 1.0e-3;
 /// range in which the driven speed moves by less than a tenth of the accuracy aimed at.
 const PREDICTION_TOLERANCE: f64 = 0.03;
 
+/// Largest step relative to the slowest swing's `1 / omega`: its second-order dispersion
+/// `(omega h)² / 12` is 2e-4 then.
+const SWING_STEP: f64 = 0.05;
+
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
@@ -389,7 +393,9 @@ fn control(drive: &Drive, mounting: &Mounting) -> Control {
         (Step::Fixed(step), _) => (step, None),
         (Step::Named(_), Method::RungeKutta) => (explicit_step(drive, mounting), None),
         (Step::Named(_), _) => (
-            (0.02 * smallest / speed * fineness).min(run.end_time),
+            (0.02 * smallest / speed * fineness)
+                .min(SWING_STEP * fineness / slowest_swing(drive, mounting))
+                .min(run.end_time),
             Some(PREDICTION_TOLERANCE * speed * fineness),
         ),
     };
@@ -408,6 +414,22 @@ fn control(drive: &Drive, mounting: &Mounting) -> Control {
         newton_tolerance: 1.0e-6 * speed * (run.accuracy / REFERENCE_ACCURACY),
         kinks,
     }
+}
+
+/// Angular frequency [rad/s] of the slowest swing of a free pulley on the two spans beside it, zero if
+/// no pulley is free: the vibration that a changing speed excites first.
+fn slowest_swing(drive: &Drive, mounting: &Mounting) -> f64 {
+    let belt = &drive.belt;
+    let stiffness = belt.axial_factor * belt.youngs_modulus * belt.width * belt.thickness;
+    // Spans are no longer than the belt: the estimate is on the slow side.
+    let per_length = drive.pulley.len() as f64 / mounting.length;
+    drive
+        .pulley
+        .iter()
+        .filter(|pulley| !pulley.is_driver())
+        .map(|p| p.radius * (2.0 * stiffness * per_length / p.inertia).sqrt())
+        .reduce(f64::min)
+        .unwrap_or(0.0)
 }
 
 /// A stable step of the explicit scheme: half its real stability limit 2.78 for friction at full
