@@ -57,7 +57,7 @@ impl<E: Element> Beam<E> {
     }
 
     /// First coordinate of a node.
-    fn at(&self, node: usize) -> usize {
+    fn at(node: usize) -> usize {
         node * E::NODE_DOF
     }
 
@@ -68,7 +68,7 @@ impl<E: Element> Beam<E> {
         let mut tangent = Mat::zeros(n, n);
         let mut force = vec![0.0; E::DOF];
         let mut stiffness = vec![0.0; E::DOF * E::DOF];
-        for first in (0..self.nodes - 1).map(|node| self.at(node)) {
+        for first in (0..self.nodes - 1).map(|node| Self::at(node)) {
             let local = &e[first..first + E::DOF];
             self.element.force(local, &mut force);
             self.element.stiffness(local, &mut stiffness);
@@ -126,8 +126,8 @@ impl<E: Element> Beam<E> {
 /// mid-span.
 fn simply_supported<E: Element>(element: E, elements: usize) -> (Beam<E>, Vec<(usize, f64)>) {
     let mut beam = Beam::new(element, elements, 0.0);
-    beam.fixed = vec![0, 1, beam.at(elements) + 1];
-    let load = vec![(beam.at(elements / 2) + 1, -1000.0)];
+    beam.fixed = vec![0, 1, Beam::<E>::at(elements) + 1];
+    let load = vec![(Beam::<E>::at(elements / 2) + 1, -1000.0)];
     (beam, load)
 }
 
@@ -140,7 +140,7 @@ fn mid_deflection<E: Element>(element: E, elements: usize) -> f64 {
 fn tip<E: Element>(element: E, elements: usize, load: f64, angle: f64) -> [f64; 2] {
     let mut beam = Beam::new(element, elements, angle);
     beam.fixed = (0..E::NODE_DOF).collect();
-    let tip = beam.at(elements);
+    let tip = Beam::<E>::at(elements);
     let (sine, cosine) = angle.sin_cos();
     let e = beam.solve(&[(tip, load * sine), (tip + 1, -load * cosine)], 8);
     [e[tip], e[tip + 1]]

@@ -178,10 +178,10 @@ pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
         .transpose()
         .map_err(Failure::Folder)?;
 
-    let string = DriveString::new(&drive, model, closure).map_err(|e| failure(e, &drive))?;
-    let answer = string.solve().map_err(|e| failure(e, &drive))?;
+    let string = DriveString::new(&drive, model, closure).map_err(|e| failure(&e, &drive))?;
+    let answer = string.solve().map_err(|e| failure(&e, &drive))?;
     let mut summary =
-        Summary::new(arguments, &drive, &string, &answer).map_err(|e| failure(e, &drive))?;
+        Summary::new(arguments, &drive, &string, &answer).map_err(|e| failure(&e, &drive))?;
 
     if let Some(folder) = folder {
         write(folder, &drive, &string, &answer, &summary).map_err(Failure::Record)?;
@@ -240,13 +240,13 @@ impl ModelName {
 }
 
 /// What is wrong with the drive, at its field.
-fn failure(error: SteadyError, drive: &Drive) -> Failure {
+fn failure(error: &SteadyError, drive: &Drive) -> Failure {
     let of_pulley = |name: &str| {
         let index = drive.pulley.iter().position(|pulley| pulley.name == *name);
         let pulleys = FieldPath::default().field("pulley");
         index.map_or(pulleys.clone(), |i| pulleys.item(i, Some(name)))
     };
-    let (path, help) = match &error {
+    let (path, help) = match error {
         SteadyError::String(error @ hihna::steady::string::StringError::NotConverged { .. }) => {
             return Failure::Steady(error.clone());
         }
@@ -313,7 +313,7 @@ impl Summary {
             largest_load: None,
             warnings: Vec::new(),
         };
-        if drive.gravity != [0.0; 2] {
+        if drive.gravity.iter().any(|g| g.abs() > 0.0) {
             summary.warnings.push(
                 "gravity plays no part in this theory; `hihna run` takes it into account".into(),
             );

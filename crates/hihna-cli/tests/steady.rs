@@ -179,7 +179,7 @@ fn the_built_in_drive_idles() {
     assert_eq!(answer["answer"], "running");
     assert_eq!(answer["capacity"], Value::Null);
     assert_eq!(steady["efficiency"], Value::Null);
-    assert!(number(&steady["speed_loss"]).abs() < 1e-15);
+    assert!(number(&steady["speed_loss"]).abs() < 1.0e-15);
     assert_eq!(
         steady["span"]["driver-driven"]["tension"],
         steady["span"]["driven-driver"]["tension"]

@@ -50,7 +50,7 @@ pub struct PulleySummary {
     /// Force of the belt on the pulley [N]; with model `centrifugal` without the stretching
     /// acceleration's small share.
     pub hub_force: [f64; 2],
-    /// Speed of the belt at the exit less that of the surface, positive along the belt's motion [m/s].
+    /// Speed of the belt at the exit less that of the surface [m/s].
     pub slip_speed: f64,
     /// Wrap angle [rad].
     pub wrap_angle: f64,
@@ -378,7 +378,7 @@ impl DriveString {
             external_torque: rotation * state.torque,
             power: state.power,
             hub_force: [ahead[0] + back[0], ahead[1] + back[1]],
-            slip_speed: state.slip_speed,
+            slip_speed: rotation * state.slip_speed,
             wrap_angle: self.layout.arcs[i].sweep.abs(),
             slip_angle: state.slip_angle,
             stick_angle: state.stick_angle,

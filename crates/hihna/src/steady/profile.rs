@@ -7,7 +7,9 @@
 //! Green (lambda² - 1)/2,   engineering lambda - 1,   true 1 - 1/lambda (4.10),   Almansi (1 - 1/lambda²)/2,   jacobian lambda.
 //! ```
 //! Contact forces are per length of the unstretched belt, as the finite elements have them (THEORY
-//! 2.2, eq. 3.20): lambda times those per length of the running belt. Time is zero.
+//! 2.2, eq. 3.20): lambda times those per length of the running belt. Friction and slip are
+//! positive counter-clockwise around the pulley, the speed of the belt along growing material
+//! coordinate. Time is zero.
 
 use crate::layout::Arc;
 use crate::observe::ProfileRow;
@@ -166,6 +168,7 @@ impl Rows<'_> {
         let point = self.drive.layout.point(s);
         let stretch = 1.0 + state.strain;
         let along = self.drive.direction;
+        let counter_clockwise = pulley.map_or(0.0, |i| self.drive.rotation(i));
         self.done.push(ProfileRow {
             time: 0.0,
             material_coordinate: material,
@@ -180,8 +183,8 @@ impl Rows<'_> {
             jacobian: stretch,
             speed: along * state.speed,
             normal_force: stretch * state.normal_force,
-            friction_force: along * stretch * state.friction_force,
-            slip_speed: along * state.slip_speed,
+            friction_force: counter_clockwise * stretch * state.friction_force,
+            slip_speed: counter_clockwise * state.slip_speed,
             pulley: pulley.map_or_else(String::new, |i| self.drive.names[i].clone()),
         });
     }

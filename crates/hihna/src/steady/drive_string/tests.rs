@@ -196,8 +196,7 @@ fn profile_rows_integrate_to_the_torques() {
             let on = drive.pulley.iter().position(|p| p.name == pair[0].pulley);
             if let (Some(i), true) = (on, pair[0].pulley == pair[1].pulley) {
                 let friction = 0.5 * (pair[0].friction_force + pair[1].friction_force);
-                let sign = prepared.layout.arcs[i].sweep.signum();
-                torques[i] -= sign * drive.pulley[i].radius * friction * step;
+                torques[i] -= drive.pulley[i].radius * friction * step;
                 assert!(pair[0].normal_force > 0.0);
             }
             assert!(pair[0].speed * prepared.direction > 0.0);
