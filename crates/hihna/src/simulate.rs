@@ -20,8 +20,9 @@ use crate::profile::Profile;
 /// Accuracy at which the constants below hold.
 const REFERENCE_ACCURACY: f64 = 1.0e-3;
 
-/// Accepted error of predicted belt velocities, relative to the nominal speed: the middle of the
-/// range in which the driven speed moves by less than a tenth of the accuracy aimed at.
+/// Accepted error of predicted belt velocities, relative to the nominal speed. Of 0.01, 0.02 and 0.03,
+/// tried on the base case with 20, 30 and 60 elements, the coarsest: the peak of the driven speed moves
+/// by less than 1e-4 of it between them.
 const PREDICTION_TOLERANCE: f64 = 0.03;
 
 /// Largest step relative to the slowest swing's `1 / omega`: its second-order dispersion
@@ -565,9 +566,9 @@ impl Recorder {
         let (t0, t1) = (window.from.time, window.to.time);
         let step = t1 - t0;
 
-        // The trapezoidal rule goes with the second-order schemes: accelerations carry the noise of
-        // fast modes, so that velocities interpolated with them between steps do not give better
-        // powers but worse ones.
+        // The trapezoidal rule is of second order as the schemes are. Simpson's rule on interpolated
+        // states left forty times the residual on the base case, probably because accelerations carry
+        // the noise of fast modes into velocities interpolated with them.
         self.observer.pulleys(system, window.to, &mut self.pulleys);
         let last = self.observer.powers(system, window.to, &self.pulleys);
         for (momentum, pulley) in self.momenta.iter_mut().zip(&self.pulleys) {
