@@ -96,7 +96,7 @@ pub struct Audit {
     pub energy_input: f64,
     /// Energy turned over: the work put in or taken out, summed without sign [J].
     pub turnover: f64,
-    /// Largest energy residual over the run, relative to the turnover.
+    /// Largest energy residual in the rows of the history, relative to the turnover.
     pub energy_residual: f64,
     /// Largest residual of the torque balance of a free pulley, relative to the angular momentum
     /// that its torques moved.

@@ -135,7 +135,7 @@ pub struct SpanReport {
 pub struct Audit {
     /// Work of the drivers [J].
     pub energy_input: f64,
-    /// Largest energy residual relative to the work turned over [-].
+    /// Largest energy residual in the rows of the history, relative to the work turned over [-].
     pub energy_residual: f64,
     /// Largest residual of a pulley's torque balance, relative [-].
     pub torque_residual: f64,
