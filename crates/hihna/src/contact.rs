@@ -291,7 +291,7 @@ impl BeltContact {
                         r,
                         v,
                         speed: state.v[self.rotors() + p],
-                        anchor: self.anchor(element * self.batches() + batch, lane, p, r, state.q),
+                        anchor: self.anchor(element * self.batches() + batch, lane, p, state.q),
                     };
                     let contact = PointContact::new(&self.penalty, &self.pulleys[p], &meeting);
                     (contact.penetration > 0.0).then_some((p, contact))
@@ -309,29 +309,17 @@ impl BeltContact {
         }
     }
 
-    /// Where the bristle of one point at `r` stands on `pulley`, in global axes.
-    fn anchor(
-        &self,
-        batch: usize,
-        lane: usize,
-        pulley: usize,
-        r: [f64; 2],
-        q: &[f64],
-    ) -> Option<[f64; 2]> {
+    /// Where the bristle of one point stands on `pulley` in global axes, zero if it has none; `None` on
+    /// pulleys whose law does not remember.
+    fn anchor(&self, batch: usize, lane: usize, pulley: usize, q: &[f64]) -> Option<[f64; 2]> {
         if !self.pulleys[pulley].friction.has_memory() {
             return None;
         }
         let bristles = &self.bristles[batch];
-        Some(if bristles.stands_on(pulley)[lane] > 0.0 {
-            let (s, c) = q[self.rotors() + pulley].sin_cos();
-            let (x, y) = (bristles.x[lane], bristles.y[lane]);
-            [c * x - s * y, s * x + c * y]
-        } else {
-            let center = self.pulleys[pulley].center;
-            let arm = [r[0] - center[0], r[1] - center[1]];
-            let distance = arm[0].hypot(arm[1]);
-            [arm[0] / distance, arm[1] / distance]
-        })
+        let stands = bristles.stands_on(pulley)[lane];
+        let (s, c) = q[self.rotors() + pulley].sin_cos();
+        let (x, y) = (bristles.x[lane] * stands, bristles.y[lane] * stands);
+        Some([c * x - s * y, s * x + c * y])
     }
 }
 

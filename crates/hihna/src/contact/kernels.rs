@@ -71,7 +71,7 @@ fn for_contacts<S: EightLanes>(
                     .bristles
                     .get(index)
                     .filter(|_| pulley.friction.has_memory())
-                    .map(|bristles| turned(bristles, p, pulley.center, state.q[rotors + p], r));
+                    .map(|bristles| turned(bristles, p, state.q[rotors + p]));
                 let meeting = Meeting {
                     r,
                     v,
@@ -92,25 +92,13 @@ fn for_contacts<S: EightLanes>(
     }
 }
 
-/// Where the bristles of a batch stand on `pulley` in global axes; points without one, at `r`, take
-/// their own normal.
+/// Where the bristles of a batch stand on `pulley` in global axes; zero for points without one.
 #[inline(always)]
-fn turned<S: EightLanes>(
-    bristles: &Bristles,
-    pulley: usize,
-    center: [f64; 2],
-    angle: f64,
-    r: [S; 2],
-) -> [S; 2] {
+fn turned<S: EightLanes>(bristles: &Bristles, pulley: usize, angle: f64) -> [S; 2] {
     let (s, c) = angle.sin_cos();
-    let (x, y) = (S::load(&bristles.x), S::load(&bristles.y));
     let stands = S::load(&bristles.stands_on(pulley));
-    let arm = [r[0] - center[0], r[1] - center[1]];
-    let inverse = (arm[0] * arm[0] + arm[1] * arm[1]).sqrt().recip();
-    [
-        stands.select_positive(x * c - y * s, arm[0] * inverse),
-        stands.select_positive(x * s + y * c, arm[1] * inverse),
-    ]
+    let (x, y) = (S::load(&bristles.x) * stands, S::load(&bristles.y) * stands);
+    [x * c - y * s, x * s + y * c]
 }
 
 /// The sum over the lanes.

@@ -15,7 +15,7 @@ pub(super) struct Meeting<S> {
     /// Speed of the pulley [rad/s].
     pub speed: f64,
     /// Outward unit vector to the place on the pulley where the point's bristle stands, turned with the
-    /// pulley; `None` without memory. A point that has none yet takes its own normal: pass zeros.
+    /// pulley; zero for a point without one, `None` for laws without memory.
     pub anchor: Option<[S; 2]>,
 }
 
