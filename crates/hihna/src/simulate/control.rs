@@ -92,7 +92,7 @@ pub(super) fn control(drive: &Drive, mounting: &Mounting) -> Control {
         method,
         step,
         error_tolerance,
-        newton_tolerance: 1.0e-6 * speed * (run.accuracy / REFERENCE_ACCURACY),
+        newton_tolerance: 2.0e-7 * speed * (run.accuracy / REFERENCE_ACCURACY),
         kinks,
     }
 }
