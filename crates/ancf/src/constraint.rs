@@ -29,7 +29,7 @@ mod prescribed;
 
 pub use attachment::BodyAttachment;
 pub use linear::LinearEquation;
-pub use prescribed::{Constant, TurnedComponent};
+pub use prescribed::{Constant, SpinUp, TurnedComponent};
 
 use thiserror::Error;
 

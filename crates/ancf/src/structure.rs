@@ -10,7 +10,8 @@
 //! let section = PlanarSection::rectangle(0.1, 0.1);
 //! let steel = Isotropic { youngs_modulus: 2.07e11, poisson_ratio: 0.3, density: 7850.0 };
 //! let mut beam = PlanarStructure::straight(LinearBeam2::new(0.5, &section, &steel), 4, [0.0, 0.0], 0.0);
-//! beam.clamp(0).force(beam.last(), [0.0, -1000.0]);
+//! beam.clamp(0);
+//! beam.force(beam.last(), [0.0, -1000.0]);
 //! let bent = beam.equilibrium()?;
 //! let [_, y] = beam.position(&bent.q, beam.last());
 //! assert!((y + 1.5e-3).abs() < 1e-4);      // P L³ / 3 E I = 1.546 mm, less with 4 elements

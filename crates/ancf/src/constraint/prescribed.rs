@@ -14,6 +14,37 @@ impl Motion for Constant {
     }
 }
 
+/// The rotation of a spin-up manoeuvre, smooth to its second derivative (Wu & Haug; Kerkkänen 2006,
+/// 2.35):
+///
+/// ```text
+/// theta = (w/T) [t²/2 + (T/2pi)² (cos(2 pi t/T) - 1)]    t < T
+/// theta = w (t - T/2)                                    t >= T
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpinUp {
+    /// Final speed w [rad/s].
+    pub speed: f64,
+    /// Time T to reach it [s].
+    pub rise_time: f64,
+}
+
+impl Motion for SpinUp {
+    fn at(&self, time: f64) -> [f64; 3] {
+        let (w, rise) = (self.speed, self.rise_time);
+        if time >= rise {
+            return [w * (time - 0.5 * rise), w, 0.0];
+        }
+        let rate = std::f64::consts::TAU / rise;
+        let (sine, cosine) = (rate * time).sin_cos();
+        [
+            w / rise * (0.5 * time * time + (cosine - 1.0) / (rate * rate)),
+            w / rise * (time - sine / rate),
+            w / rise * (1.0 - cosine),
+        ]
+    }
+}
+
 /// A component of a vector that turns by a prescribed angle: `R(theta) p`, with
 ///
 /// ```text

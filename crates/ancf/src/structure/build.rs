@@ -31,6 +31,14 @@ impl<E: LineElement> Loaded for System<E, Loads> {
     }
 }
 
+impl<E: LineElement> System<E, Loads> {
+    /// Kinetic, strain and load energy [J] together; moments are left out. In a rotating frame the
+    /// Jacobi integral.
+    pub fn energy(&self, q: &[f64], v: &[f64]) -> f64 {
+        self.kinetic_energy(v) + self.strain_energy(q) + self.law.potential(q)
+    }
+}
+
 impl<E: LineElement> PlanarStructure<E> {
     /// Nodes that are a node of their own.
     fn nodes(&self) -> usize {
