@@ -13,7 +13,7 @@ use ancf::system::{self, RigidCoordinate, System};
 use thiserror::Error;
 
 use crate::contact::{BeltContact, ContactPulley, Penalty};
-use crate::drive::{Belt, Drive, Pulley};
+use crate::drive::{Belt, Drive, Harmonic, Pulley};
 use crate::friction::{Frictionless, Law};
 use crate::layout::{Arc, Layout, LayoutError};
 use crate::profile::Profile;
@@ -296,13 +296,16 @@ fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &Arc) -> ContactPulley {
         // The section's slope points to the left of the path: to the centre of a pulley that the path
         // turns about counter-clockwise.
         height: drive.pitch_offset() * arc.sweep.signum(),
-        torque: pulley.torque.clone(),
+        external: pulley.external_torque(),
     }
 }
 
 fn rotor(pulley: &Pulley) -> RigidCoordinate {
     let motion: Option<Box<dyn system::Motion>> = match (&pulley.speed, &pulley.angle) {
-        (Some(speed), _) => Some(Box::new(BySpeed(speed.clone()))),
+        (Some(speed), _) => Some(Box::new(BySpeed {
+            mean: speed.clone(),
+            harmonics: pulley.irregularity.clone(),
+        })),
         (None, Some(angle)) => Some(Box::new(ByAngle(angle.clone()))),
         (None, None) => None,
     };
@@ -313,16 +316,37 @@ fn rotor(pulley: &Pulley) -> RigidCoordinate {
     }
 }
 
-/// A rotor driven at a prescribed speed from angle zero.
+/// A rotor driven at a prescribed speed from angle zero. With the mean speed `w` and its angle `a`,
+///
+/// ```text
+/// angle = a + sum (A_k / k) [sin(k a + phi_k) - sin phi_k]
+/// speed = w [1 + sum A_k cos(k a + phi_k)]
+/// ```
 #[derive(Debug)]
-struct BySpeed(Profile);
+struct BySpeed {
+    mean: Profile,
+    harmonics: Vec<Harmonic>,
+}
 
 impl system::Motion for BySpeed {
     fn at(&self, time: f64) -> [f64; 3] {
+        let (a, w) = (self.mean.integral(time), self.mean.value(time));
+        let (mut angle, mut factor, mut slope) = (a, 1.0, 0.0);
+        for Harmonic {
+            order,
+            amplitude,
+            phase,
+        } in &self.harmonics
+        {
+            let (sine, cosine) = (order * a + phase).sin_cos();
+            angle += amplitude / order * (sine - phase.sin());
+            factor += amplitude * cosine;
+            slope -= amplitude * order * sine;
+        }
         [
-            self.0.integral(time),
-            self.0.value(time),
-            self.0.derivative(time),
+            angle,
+            w * factor,
+            self.mean.derivative(time) * factor + w * w * slope,
         ]
     }
 }

@@ -34,7 +34,7 @@ use ancf::system::{ForceLaw, State};
 pub use point::PointContact;
 
 use crate::friction::Law;
-use crate::profile::Profile;
+use crate::load::ExternalTorque;
 use memory::Bristles;
 use point::Meeting;
 use table::{LANES, Line, MAX_VECTORS, Table};
@@ -51,8 +51,8 @@ pub struct ContactPulley {
     /// Height [m] over the belt's centre line of the line that touches the pulley, along the section's
     /// slope: 0 for the centre line, plus or minus half the thickness for the faces.
     pub height: f64,
-    /// External torque [N m].
-    pub torque: Profile,
+    /// Torque from outside of the drive.
+    pub external: ExternalTorque,
 }
 
 /// The penalty law in the normal direction.
@@ -332,7 +332,8 @@ impl ForceLaw for BeltContact {
         });
         let rotors = self.rotors();
         for (p, pulley) in self.pulleys.iter().enumerate() {
-            force[rotors + p] += pulley.torque.value(state.time);
+            let speed = state.v[rotors + p];
+            force[rotors + p] += pulley.external.value(state.time, speed);
         }
     }
 
@@ -353,6 +354,10 @@ impl ForceLaw for BeltContact {
             matrix,
         });
         self.local = local;
+        for (p, pulley) in self.pulleys.iter().enumerate() {
+            let slope = pulley.external.derivative(state.v[self.rotors() + p]);
+            matrix.add_corner(p, p, -velocity_factor * slope);
+        }
     }
 
     fn accept(&mut self, state: State<'_>) {

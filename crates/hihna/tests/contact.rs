@@ -68,7 +68,7 @@ fn contact(friction: Law, clamp: bool, height: f64) -> BeltContact {
         radius,
         friction,
         height,
-        torque: Profile::Constant(torque),
+        external: Profile::Constant(torque).into(),
     };
     let mut contact = BeltContact::new(
         &vec![element; ELEMENTS],
@@ -362,7 +362,7 @@ fn forces_and_moments_of_belt_and_pulleys_cancel() {
         "{on_belt} on the belt, {on_pulleys} on the pulleys"
     );
     for (p, total) in totals.iter().enumerate() {
-        let external = law.pulleys[p].torque.value(0.0);
+        let external = law.pulleys[p].external.value(0.0, 0.0);
         assert!((forces[CHAIN + p] - external - total.torque).abs() <= 1.0e-12 * scale);
     }
 }

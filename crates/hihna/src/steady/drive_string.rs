@@ -207,6 +207,11 @@ fn speed_controlled(pulleys: &[Pulley]) -> Result<(usize, f64), SteadyError> {
             pulley: pulley.name.clone(),
         });
     }
+    if let Some(pulley) = pulleys.iter().find(|pulley| pulley.load.is_some()) {
+        return Err(SteadyError::SpeedDependent {
+            pulley: pulley.name.clone(),
+        });
+    }
     let mut driven = pulleys
         .iter()
         .enumerate()
