@@ -93,10 +93,24 @@ pub struct Belt {
     #[serde(default)]
     #[schemars(schema_with = "units::time", extend("minimum" = 0.0))]
     pub damping_time: f64,
+    /// How the belt's ends are joined.
+    #[serde(default)]
+    pub joint: Joint,
     /// Where the first node starts: path length from mid-wrap of the first pulley [m].
     #[serde(default)]
     #[schemars(schema_with = "units::length")]
     pub first_node: f64,
+}
+
+/// How the belt's ends are joined to a loop. Both give the same motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Joint {
+    /// The last element ends in the first node.
+    #[default]
+    Shared,
+    /// The last element has an end of its own, tied to the first node by Lagrange multipliers.
+    Multipliers,
 }
 
 /// Contact along the belt.

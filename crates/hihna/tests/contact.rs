@@ -12,6 +12,7 @@ use std::num::NonZeroUsize;
 use ancf::element::BeltBeam2;
 use ancf::linear::{BorderedMatrix, Structure};
 use ancf::material::Isotropic;
+use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 use ancf::section::PlanarSection;
 use ancf::system::{ForceLaw, State};
@@ -71,7 +72,7 @@ fn contact(friction: Law, clamp: bool, height: f64) -> BeltContact {
         external: Profile::Constant(torque).into(),
     };
     let mut contact = BeltContact::new(
-        &vec![element; ELEMENTS],
+        &Mesh::closed(vec![element; ELEMENTS]),
         vec![
             pulley([0.0, 0.0], RADIUS - height, height, 0.0),
             pulley([RADIUS + 0.048, 0.01], 0.05 - height, -height, -0.7),

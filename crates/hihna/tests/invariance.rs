@@ -380,3 +380,27 @@ fn audits_close_with_every_law_element_and_surface() {
         );
     }
 }
+
+/// A joint by multipliers closes the same loop: the same equations, other unknowns, so that only what
+/// Newton leaves differs.
+#[test]
+fn joint_by_multipliers_gives_the_motion_of_the_shared_node() {
+    let short = ["run.end_time=0.2"];
+    let shared = run(&[DRIVER, DRIVEN], LENGTH, &short);
+    let tied = run(
+        &[DRIVER, DRIVEN],
+        LENGTH,
+        &[short[0], "belt.joint=\"multipliers\""],
+    );
+    assert_audit(&tied);
+    assert_eq!(tied.dofs, shared.dofs + 12);
+    for name in [
+        "driven.speed",
+        "driver-driven.tension",
+        "driven-driver.tension",
+        "driver.hub_force_x",
+    ] {
+        let off = difference(&column(&shared, name), 1.0, &column(&tied, name));
+        assert!(off < TO_SOLVER_TOLERANCE, "{name}: {off:.1e}");
+    }
+}

@@ -65,6 +65,7 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
             None => pulleys,
         },
         AssemblyError::Layout(_) => pulleys,
+        AssemblyError::Joint(_) => FieldPath::default().field("belt").field("joint"),
     };
     let problem = Problem::new(path, error.to_string());
     Some(match error {
@@ -74,6 +75,7 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
         AssemblyError::TooShort { shortest, path, .. } => problem.expected(format!(
             "an unstretched length between {shortest:.6} m and {path:.6} m"
         )),
+        AssemblyError::Joint(_) => problem,
         AssemblyError::Layout(_) => {
             problem.help("`hihna check` prints the path of the belt once it closes")
         }
