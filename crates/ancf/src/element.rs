@@ -11,12 +11,17 @@
 mod beam2_belt;
 mod beam2_cubic;
 mod beam2_linear;
+mod beam3_belt;
+mod beam3_linear;
 mod hermite;
 mod plane_section;
+mod space_section;
 
 pub use beam2_belt::BeltBeam2;
 pub use beam2_cubic::{CubicBeam2, FoldedReference};
 pub use beam2_linear::LinearBeam2;
+pub use beam3_belt::BeltBeam3;
+pub use beam3_linear::LinearBeam3;
 
 use crate::scalar::Scalar;
 
@@ -117,4 +122,11 @@ pub trait LineElement: Element {
 
     /// Axial force [N] at `xi` in the configuration `e`.
     fn axial_force(&self, e: &[f64], xi: f64) -> f64;
+}
+
+/// `det [a b c]` of three vectors.
+fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
