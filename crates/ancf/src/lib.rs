@@ -10,6 +10,7 @@ pub mod element;
 pub mod linear;
 pub mod material;
 pub mod mesh;
+pub mod norm;
 pub mod quadrature;
 pub mod scalar;
 pub mod section;

@@ -426,13 +426,11 @@ impl ModelSummary {
             Tightness::UnstretchedLength(length) => (length, stiffness * (path / length - 1.0)),
             Tightness::InitialTension(tension) => (path / (1.0 + tension / stiffness), tension),
         };
-        let (Friction::CreepRate { coefficient, .. } | Friction::Coulomb { coefficient, .. }) =
-            drive.contact.friction;
         Self {
             theory: "string",
             inertia: arguments.model,
             closure: arguments.closure,
-            friction_coefficient: coefficient,
+            friction_coefficient: drive.contact.friction.coefficient(),
             axial_stiffness: stiffness,
             line_density: string.string.line_density,
             path_length: path,
@@ -449,6 +447,8 @@ impl ModelSummary {
         let unused = match drive.contact.friction {
             Friction::CreepRate { .. } => "the slope of law `creep-rate`",
             Friction::Coulomb { .. } => "the velocity of law `coulomb`",
+            Friction::Stribeck { .. } => "the static coefficient and velocities of law `stribeck`",
+            Friction::ElasticPlastic { .. } => "the bristles of law `elastic-plastic`",
         };
         let mut text = String::new();
         // Writing to a string cannot fail.

@@ -4,7 +4,7 @@
 use std::num::NonZeroUsize;
 
 use ancf::dynamics::Motion;
-use ancf::element::{BeltBeam2, Element, LineElement};
+use ancf::element::{BeltBeam2, CubicBeam2, LineElement, LinearBeam2};
 use ancf::material::Isotropic;
 use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
@@ -14,8 +14,8 @@ use thiserror::Error;
 
 use crate::contact::{BeltContact, ContactPulley, Penalty};
 use crate::drive::{Belt, Drive, Pulley};
-use crate::friction::FrictionLaw;
-use crate::layout::{Layout, LayoutError};
+use crate::friction::{Frictionless, Law};
+use crate::layout::{Arc, Layout, LayoutError};
 use crate::profile::Profile;
 
 /// Stretch beyond which a belt is taken to be the wrong one.
@@ -142,11 +142,11 @@ fn stretch_under(load: f64) -> f64 {
     f
 }
 
-/// A drive ready to settle and run.
+/// A drive ready to settle and run. Its pulleys are frictionless until [`Assembly::release`].
 #[derive(Debug)]
-pub struct Assembly<E, F> {
+pub struct Assembly<E> {
     /// The mechanical system.
-    pub system: System<E, BeltContact<E, F>>,
+    pub system: System<E, BeltContact>,
     /// The initial state: belt on the path, everything at rest.
     pub motion: Motion,
     /// The belt's path.
@@ -170,11 +170,7 @@ impl BeltElementType for BeltBeam2 {
         Self::new(
             length,
             &PlanarSection::rectangle(belt.width, belt.thickness),
-            &Isotropic {
-                youngs_modulus: belt.youngs_modulus,
-                poisson_ratio: belt.poisson_ratio,
-                density: belt.density,
-            },
+            &material(belt),
             belt.axial_factor,
             belt.bending_factor,
             belt.damping_time,
@@ -182,11 +178,42 @@ impl BeltElementType for BeltBeam2 {
     }
 }
 
-impl<E: BeltElementType, F: FrictionLaw> Assembly<E, F> {
-    /// Puts `drive` together with friction law `friction`.
-    pub fn new(drive: &Drive, friction: F) -> Result<Self, AssemblyError> {
+impl BeltElementType for CubicBeam2 {
+    fn for_belt(belt: &Belt, length: f64) -> Self {
+        Self::new(length, &softened_section(belt), &material(belt))
+    }
+}
+
+impl BeltElementType for LinearBeam2 {
+    fn for_belt(belt: &Belt, length: f64) -> Self {
+        Self::new(length, &softened_section(belt), &material(belt))
+    }
+}
+
+fn material(belt: &Belt) -> Isotropic {
+    Isotropic {
+        youngs_modulus: belt.youngs_modulus,
+        poisson_ratio: belt.poisson_ratio,
+        density: belt.density,
+    }
+}
+
+/// The section of elements that have no factors of their own: the bending factor acts on its higher
+/// moments.
+fn softened_section(belt: &Belt) -> PlanarSection {
+    let section = PlanarSection::rectangle(belt.width, belt.thickness);
+    PlanarSection {
+        second_moment: belt.bending_factor * section.second_moment,
+        fourth_moment: belt.bending_factor * section.fourth_moment,
+        ..section
+    }
+}
+
+impl<E: BeltElementType> Assembly<E> {
+    /// Puts `drive` together.
+    pub fn new(drive: &Drive) -> Result<Self, AssemblyError> {
         let belt = &drive.belt;
-        let layout = Layout::new(&drive.pulley)?;
+        let layout = Layout::of(drive)?;
         let mounting = Mounting::new(belt, &layout)?;
         let count = belt.elements;
         let length = mounting.length / count as f64;
@@ -194,13 +221,17 @@ impl<E: BeltElementType, F: FrictionLaw> Assembly<E, F> {
         let points = NonZeroUsize::new(drive.contact.points).unwrap_or(NonZeroUsize::MIN);
         let contact = BeltContact::new(
             &elements,
-            drive.pulley.iter().map(contact_pulley).collect(),
+            drive
+                .pulley
+                .iter()
+                .zip(&layout.arcs)
+                .map(|(pulley, arc)| contact_pulley(drive, pulley, arc))
+                .collect(),
             Penalty {
                 stiffness: drive.contact.stiffness,
                 damping: drive.contact.damping,
                 clamp: drive.contact.clamp_normal_force,
             },
-            friction,
             Rule::gauss(points),
         );
         let mesh = Mesh::closed(elements);
@@ -226,42 +257,45 @@ impl<E: BeltElementType, F: FrictionLaw> Assembly<E, F> {
         })
     }
 
-    /// The same drive under another friction law.
-    #[must_use]
-    pub fn with_friction<G: FrictionLaw>(self, friction: G) -> Assembly<E, G> {
-        Assembly {
-            system: self.system.map_law(|law| law.with_friction(friction)),
-            motion: self.motion,
-            layout: self.layout,
-            mounting: self.mounting,
-            warnings: self.warnings,
-            element_start: self.element_start,
-        }
+    /// Lets the friction of `drive` act.
+    pub fn release(&mut self, drive: &Drive) {
+        let laws = drive
+            .pulley
+            .iter()
+            .map(|pulley| Law::new(drive.friction_on(pulley), pulley.grip()));
+        self.system.law.set_friction(laws);
     }
 }
 
 /// The belt evenly stretched on its path, at rest.
-fn on_path<E: Element>(drive: &Drive, layout: &Layout, mounting: &Mounting) -> Motion {
+fn on_path<E: LineElement>(drive: &Drive, layout: &Layout, mounting: &Mounting) -> Motion {
     let count = drive.belt.elements;
     let chain = count * E::NODE_DOF;
     let mut motion = Motion::zero(chain + drive.pulley.len());
+    let across = 2 * E::SECTION_VECTORS[0];
     for (i, node) in motion.q[..chain].chunks_exact_mut(E::NODE_DOF).enumerate() {
         let s = drive.belt.first_node + mounting.path * i as f64 / count as f64;
         let place = layout.point(s);
         let [tx, ty] = place.tangent;
         node[0..2].copy_from_slice(&place.position);
-        node[2] = mounting.stretch * tx;
-        node[3] = mounting.stretch * ty;
-        node[4] = -ty;
-        node[5] = tx;
+        if E::CENTRE_VECTORS.len() == 4 {
+            node[2] = mounting.stretch * tx;
+            node[3] = mounting.stretch * ty;
+        }
+        node[across] = -ty;
+        node[across + 1] = tx;
     }
     motion
 }
 
-fn contact_pulley(pulley: &Pulley) -> ContactPulley {
+fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &Arc) -> ContactPulley {
     ContactPulley {
         center: pulley.center,
         radius: pulley.radius,
+        friction: Law::Frictionless(Frictionless),
+        // The section's slope points to the left of the path: to the centre of a pulley that the path
+        // turns about counter-clockwise.
+        height: drive.pitch_offset() * arc.sweep.signum(),
         torque: pulley.torque.clone(),
     }
 }

@@ -45,7 +45,7 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
         } => "tension",
         _ => "strain",
     };
-    let fit = Layout::new(&drive.pulley)
+    let fit = Layout::of(drive)
         .map_err(AssemblyError::Layout)
         .and_then(|layout| Mounting::new(&drive.belt, &layout));
     let error = fit.err()?;

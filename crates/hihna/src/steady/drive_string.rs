@@ -10,7 +10,7 @@
 
 use serde::Serialize;
 
-use crate::drive::{Belt, Drive, Friction, Pulley};
+use crate::drive::{Belt, Drive, Pulley};
 use crate::layout::{Layout, LayoutError};
 use crate::profile::{Profile, Varying};
 use crate::steady::string::{
@@ -152,7 +152,7 @@ pub enum SteadyError {
 impl DriveString {
     /// Makes a drive ready.
     pub fn new(drive: &Drive, model: Model, closure: Closure) -> Result<Self, SteadyError> {
-        let layout = Layout::new(&drive.pulley)?;
+        let layout = Layout::of(drive)?;
         let (driver, speed) = speed_controlled(&drive.pulley)?;
         let direction = speed.signum() * layout.arcs[driver].sweep.signum();
         let count = drive.pulley.len();
@@ -185,14 +185,6 @@ impl DriveString {
             order,
             direction,
         };
-        let (Friction::CreepRate {
-            coefficient: friction,
-            ..
-        }
-        | Friction::Coulomb {
-            coefficient: friction,
-            ..
-        }) = drive.contact.friction;
         for j in 0..count {
             let i = prepared.order[j];
             let arc = &prepared.layout.arcs[i];
@@ -204,7 +196,7 @@ impl DriveString {
             let pulley = StringPulley {
                 radius: arc.radius,
                 wrap_angle: arc.sweep.abs(),
-                friction,
+                friction: drive.coefficient_on(&drive.pulley[i]),
                 role,
                 span: prepared.layout.spans[prepared.span_behind(j)].length,
             };
