@@ -38,6 +38,9 @@ pub trait Element: Clone + PartialEq + std::fmt::Debug + Send + Sync {
     const NODES: usize;
     /// Vectors per node: the position and its slopes.
     const NODE_VECTORS: usize;
+    /// Where each node lies in a mesh: how many sections ahead of the first, and how many nodes across the
+    /// section from it. A beam's second node is the next section.
+    const NODE_PLACES: &'static [[usize; 2]] = &[[0, 0], [1, 0]];
     /// Coordinates of a node.
     const NODE_DOF: usize = Self::DIMENSION * Self::NODE_VECTORS;
     /// Coordinates of the element.

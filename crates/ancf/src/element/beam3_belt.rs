@@ -481,6 +481,7 @@ impl BeltBeam3 {
 
 impl LineElement for BeltBeam3 {
     const CENTRE_VECTORS: &'static [usize] = &hermite::SPATIAL_VECTORS;
+    const SECTION_VECTORS: [usize; 2] = [2, 6];
 
     fn length(&self) -> f64 {
         self.length

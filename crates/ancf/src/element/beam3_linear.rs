@@ -207,6 +207,7 @@ impl Element for LinearBeam3 {
 
 impl LineElement for LinearBeam3 {
     const CENTRE_VECTORS: &'static [usize] = &[0, NODE_VECTORS];
+    const SECTION_VECTORS: [usize; 2] = [1, NODE_VECTORS + 1];
 
     fn length(&self) -> f64 {
         self.length
