@@ -6,7 +6,9 @@
 
 use std::hint::black_box;
 
-use ancf::element::{BeltBeam2, BeltBeam3, CubicBeam2, Element, LinearBeam2, LinearBeam3};
+use ancf::element::{
+    BeltBeam2, BeltBeam3, BendingRigidity, CubicBeam2, Element, LinearBeam2, LinearBeam3, ThinPlate,
+};
 use ancf::material::Isotropic;
 use ancf::scalar::{EightLanes, LaneKernel, Scalar, dispatch};
 use ancf::section::{PlanarSection, SpatialSection};
@@ -39,6 +41,8 @@ fn benches(criterion: &mut Criterion) {
     element(criterion, "spatial_linear_beam", &linear);
     let belt = BeltBeam3::new(0.05, &section, &material, 1.0, 0.01);
     element(criterion, "spatial_belt_beam", &belt);
+    let plate = ThinPlate::new(0.05, 0.04, 0.01, &material, BendingRigidity::Kirchhoff);
+    element(criterion, "thin_plate", &plate);
 }
 
 fn element<E: Element>(criterion: &mut Criterion, name: &str, element: &E) {

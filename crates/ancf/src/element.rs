@@ -15,6 +15,7 @@ mod beam3_belt;
 mod beam3_linear;
 mod hermite;
 mod plane_section;
+mod plate_thin;
 mod space_section;
 
 pub use beam2_belt::BeltBeam2;
@@ -22,8 +23,10 @@ pub use beam2_cubic::{CubicBeam2, FoldedReference};
 pub use beam2_linear::LinearBeam2;
 pub use beam3_belt::BeltBeam3;
 pub use beam3_linear::LinearBeam3;
+pub use plate_thin::{BendingRigidity, PlateQuadrature, ThinPlate};
 
 use crate::scalar::Scalar;
+use crate::strain::SurfaceGradient;
 
 /// An element with `NODES` nodes of `NODE_VECTORS` vectors in `DIMENSION` dimensions.
 ///
@@ -129,6 +132,26 @@ pub trait LineElement: Element {
 
     /// Axial force [N] at `xi` in the configuration `e`.
     fn axial_force(&self, e: &[f64], xi: f64) -> f64;
+}
+
+/// An element whose material points lie on a rectangle `0 <= x <= length`, `0 <= y <= width`: plates.
+/// Places on it are `[x / length, y / width]`.
+pub trait SurfaceElement: Element {
+    /// Undeformed length [m], along the body.
+    fn length(&self) -> f64;
+
+    /// Undeformed width [m], across it.
+    fn width(&self) -> f64;
+
+    /// Shape functions at `place`, one weight for each vector coordinate of the element (length
+    /// `NODES * NODE_VECTORS`).
+    fn surface(&self, place: [f64; 2], weights: &mut [f64]);
+
+    /// Derivatives of [`SurfaceElement::surface`] by x and y [1/m].
+    fn surface_slopes(&self, place: [f64; 2], by_x: &mut [f64], by_y: &mut [f64]);
+
+    /// `(r_x, r_y)` at `place` in the configuration `e`, with the measures of strain.
+    fn surface_gradient(&self, e: &[f64], place: [f64; 2]) -> SurfaceGradient;
 }
 
 /// `det [a b c]` of three vectors.

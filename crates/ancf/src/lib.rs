@@ -15,4 +15,5 @@ pub mod quadrature;
 pub mod scalar;
 pub mod section;
 pub mod statics;
+pub mod strain;
 pub mod system;
