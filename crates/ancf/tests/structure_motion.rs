@@ -270,8 +270,9 @@ fn the_pendulum_keeps_its_energy() {
     assert!(fine < coarse / 100.0 || fine < 1e-9, "{coarse} {fine}");
 }
 
-/// Statements on Figs 2.6 and 2.8 over 1.2 s: 8 and 16 linear elements nearly identical, 4 close, 2 visibly off; linear
-/// and cubic with 8 elements agree within 0.026 m.
+/// Statements on Figs 2.6 and 2.8 over 1.2 s: 8 and 16 linear elements nearly identical (within the width of
+/// a line, 1 % of the 4 m that the tip swings), 4 close, 2 visibly off, each halving at least halving the
+/// distance; linear and cubic with 8 elements agree within 0.026 m.
 #[test]
 fn the_pendulum_converges_as_published() {
     let linear = [2, 4, 8, 16].map(|n| tips(&pendulum(linear(n), n), 1.2, 100, 0.02));
@@ -281,7 +282,7 @@ fn the_pendulum_converges_as_published() {
         .collect();
     assert!(to_finest[0] > 2.0 * to_finest[1], "{to_finest:?}");
     assert!(to_finest[1] > 2.0 * to_finest[2], "{to_finest:?}");
-    assert!(to_finest[2] < 0.01 * LENGTH, "{to_finest:?}");
+    assert!(to_finest[2] < 0.01 * 2.0 * LENGTH, "{to_finest:?}");
     let cubic = CubicBeam2::new(LENGTH / 8.0, &section(), &RUBBER);
     let cubic = tips(&pendulum(cubic, 8), 1.2, 400, 0.02);
     let apart = largest_distance(&linear[2], &cubic);
