@@ -1,7 +1,8 @@
 //! Drives in, names and signs out.
 
 use super::*;
-use crate::drive::{BeltElement, Contact, Run, Wrap};
+use crate::drive::{Belt, BeltElement, Contact, Friction, Run, Wrap};
+use crate::steady::string::Running;
 
 /// The closure is solved to 1e-12; sums of a dozen terms.
 const ROUND_OFF: f64 = 1.0e-10;
