@@ -88,6 +88,10 @@ pub trait LineElement: Element {
     /// `(r1, r1_x, r2, r2_x)`, in this order.
     const CENTRE_VECTORS: &'static [usize];
 
+    /// The slopes across the section (r1_y, r2_y): the point at height `y` over the centre line lies `y`
+    /// times their linear interpolation beside it.
+    const SECTION_VECTORS: [usize; 2];
+
     /// Undeformed length [m].
     fn length(&self) -> f64;
 

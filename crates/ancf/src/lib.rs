@@ -12,6 +12,7 @@ pub mod linear;
 pub mod loads;
 pub mod material;
 pub mod mesh;
+pub mod norm;
 pub mod quadrature;
 pub mod scalar;
 pub mod section;

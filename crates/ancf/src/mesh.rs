@@ -98,13 +98,7 @@ impl<E: Element> Mesh<E> {
 
     /// Strain energy [J] of the configuration `q`.
     pub fn energy(&self, q: &[f64]) -> f64 {
-        let mut e = vec![0.0; E::DOF];
-        let mut energy = 0.0;
-        for (i, element) in self.elements.iter().enumerate() {
-            self.gather(i, q, &mut e);
-            energy += element.energy(&e[..]);
-        }
-        energy
+        dispatch(Energy { mesh: self, q })
     }
 
     /// Power [W] that internal damping takes in the state `(q, v)`.
@@ -221,6 +215,28 @@ impl<E: Element> Mesh<E> {
 struct Batch {
     first: usize,
     count: usize,
+}
+
+/// The work of [`Mesh::energy`].
+struct Energy<'a, E> {
+    mesh: &'a Mesh<E>,
+    q: &'a [f64],
+}
+
+impl<E: Element> LaneKernel for Energy<'_, E> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) -> f64 {
+        let mut energy = 0.0;
+        for batch in self.mesh.batches() {
+            let element = &self.mesh.elements[batch.first];
+            let e = self.mesh.load::<S>(batch, self.q);
+            let lanes = element.energy(&e[..E::DOF]).store();
+            energy += lanes[..batch.count].iter().sum::<f64>();
+        }
+        energy
+    }
 }
 
 /// The work of [`Mesh::add_force`].

@@ -15,11 +15,14 @@
 
 mod load_steps;
 
+use std::ops::ControlFlow;
+
 pub use load_steps::{Equilibrium, LoadStepError, LoadSteps, Loaded, equilibrium, linear_response};
 
 use thiserror::Error;
 
 use crate::linear::{BorderedMatrix, CyclicSolver, Solver};
+use crate::norm::VectorNorm;
 use crate::system::{Mechanics, State};
 
 /// Part of the first shift below which a correction counts as Newton's own.
@@ -75,6 +78,12 @@ pub enum StaticsError {
         /// The coordinate whose pivot vanished.
         coordinate: usize,
     },
+    /// The watcher asked to stop.
+    #[error("stopped in iteration {iteration}")]
+    Stopped {
+        /// Iteration that was about to begin.
+        iteration: usize,
+    },
 }
 
 /// Moves `q` to an equilibrium near it, at zero velocity and time `time`.
@@ -84,9 +93,23 @@ pub fn settle(
     q: &mut [f64],
     options: Settle,
 ) -> Result<Settled, StaticsError> {
+    settle_watched(system, time, q, options, &mut |_, _| {
+        ControlFlow::Continue(())
+    })
+}
+
+/// [`settle`], showing `watch` the number and the configuration of every iteration; it stops where
+/// `watch` breaks.
+pub fn settle_watched(
+    system: &mut dyn Mechanics,
+    time: f64,
+    q: &mut [f64],
+    options: Settle,
+    watch: &mut dyn FnMut(usize, &[f64]) -> ControlFlow<()>,
+) -> Result<Settled, StaticsError> {
     let structure = system.structure();
     let size = structure.size();
-    let scales = system.scales().to_vec();
+    let norm = VectorNorm::new(system);
     let rest = vec![0.0; size];
     let mut fixed = vec![false; size];
     for (index, _) in system.prescribed() {
@@ -102,6 +125,9 @@ pub fn settle(
     let mut last = (f64::INFINITY, 0);
 
     for iteration in 1..=options.max_iterations {
+        if watch(iteration, q).is_break() {
+            return Err(StaticsError::Stopped { iteration });
+        }
         let state = State { time, q, v: &rest };
         matrix.clear();
         matrix.add_scaled(shift, system.mass());
@@ -127,7 +153,7 @@ pub fn settle(
             })?;
         correction.copy_from_slice(&force);
         solver.solve(&mut correction);
-        let size_now = norm(&correction, &scales);
+        let size_now = norm.largest(&correction);
         last = size_now;
         if size_now.0 < options.tolerance {
             for (x, b) in q.iter_mut().zip(&correction) {
@@ -182,18 +208,4 @@ pub fn settle(
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-/// Largest scaled entry and where it is; NaN counts as infinite.
-fn norm(correction: &[f64], scales: &[f64]) -> (f64, usize) {
-    let mut largest = (0.0, 0);
-    for (i, (b, scale)) in correction.iter().zip(scales).enumerate() {
-        let value = (b * scale).abs();
-        if value > largest.0 {
-            largest = (value, i);
-        } else if value.is_nan() {
-            return (f64::INFINITY, i);
-        }
-    }
-    largest
 }

@@ -49,11 +49,22 @@ pub trait Mechanics {
         matrix: &mut BorderedMatrix,
     );
 
+    /// Tells forces with memory that `state` ended a step.
+    fn accept(&mut self, state: State<'_>) {
+        let _ = state;
+    }
+
     /// Coordinates whose motion is prescribed: index and motion.
     fn prescribed(&self) -> &[(usize, Box<dyn Motion>)];
 
     /// Scale [m per unit] of each coordinate in convergence norms; zero for multipliers.
     fn scales(&self) -> &[f64];
+
+    /// Components of the vectors that the chain's coordinates are made of. Norms take the length of each
+    /// vector, whose components share their scale, so that they do not depend on the axes.
+    fn dimension(&self) -> usize {
+        1
+    }
 
     /// The constraints, if any.
     fn constraints(&self) -> Option<&ConstraintSet> {
@@ -90,6 +101,12 @@ pub trait ForceLaw {
         velocity_factor: f64,
         matrix: &mut BorderedMatrix,
     );
+
+    /// Called once for every accepted step: laws with memory take the new state in. Until then they
+    /// answer from the last accepted one, so that a step may be tried again.
+    fn accept(&mut self, state: State<'_>) {
+        let _ = state;
+    }
 }
 
 /// No further forces.
@@ -186,22 +203,6 @@ impl<E: Element, L: ForceLaw> System<E, L> {
         }
     }
 
-    /// The same system under another law of forces.
-    #[must_use]
-    pub fn map_law<K: ForceLaw>(self, change: impl FnOnce(L) -> K) -> System<E, K> {
-        System {
-            mesh: self.mesh,
-            law: change(self.law),
-            structure: self.structure,
-            mass: self.mass,
-            compressed_mass: self.compressed_mass,
-            constant_force: self.constant_force,
-            prescribed: self.prescribed,
-            scales: self.scales,
-            constraints: self.constraints,
-        }
-    }
-
     /// The flexible body.
     pub fn mesh(&self) -> &Mesh<E> {
         &self.mesh
@@ -209,9 +210,7 @@ impl<E: Element, L: ForceLaw> System<E, L> {
 
     /// Kinetic energy [J].
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
-        let mut momentum = vec![0.0; v.len()];
-        self.compressed_mass.multiply(v, &mut momentum);
-        0.5 * v.iter().zip(&momentum).map(|(a, b)| a * b).sum::<f64>()
+        0.5 * self.compressed_mass.quadratic(v)
     }
 
     /// Strain energy [J] of the flexible body.
@@ -258,12 +257,20 @@ impl<E: Element, L: ForceLaw> Mechanics for System<E, L> {
             .add_tangent(state, position_factor, velocity_factor, matrix);
     }
 
+    fn accept(&mut self, state: State<'_>) {
+        self.law.accept(state);
+    }
+
     fn prescribed(&self) -> &[(usize, Box<dyn Motion>)] {
         &self.prescribed
     }
 
     fn scales(&self) -> &[f64] {
         &self.scales
+    }
+
+    fn dimension(&self) -> usize {
+        E::DIMENSION
     }
 
     fn constraints(&self) -> Option<&ConstraintSet> {

@@ -1,7 +1,8 @@
 //! Contact between belt and pulleys, distributed along each element (Kerkkänen 2006, 3.20-3.27).
 //!
 //! With the pulley's centre O, radius R and speed omega, `rho = |r - O|`, `n = (r - O) / rho` and
-//! `t = I~ n` (counter-clockwise) at a point `r` of the belt's centre line:
+//! `t = I~ n` (counter-clockwise) at a point `r` of the belt's contact line (its centre line, or the
+//! face that lies on the pulley):
 //!
 //! ```text
 //! d   = R - rho                 d' = -n.r'              contact where d > 0       (3.21)
@@ -15,32 +16,44 @@
 //!
 //! Derivatives: `dn/dr = t t^T / rho`, `dt/dr = -n t^T / rho`, so `dd/dr = -n`,
 //! `dd'/dr = -(t.r') t / rho`, `dd'/dr' = -n`, `dv_t/dr = -(n.r') t / rho`, `dv_t/dr' = t`.
+//!
+//! Laws with memory see the displacement `z = R sin(angle from the bristle's place to n)`, so
+//! `dz/dr = R cos(..) t / rho` and `dz/d theta = -R cos(..)`.
 
-use std::marker::PhantomData;
+mod kernels;
+mod memory;
+mod point;
+mod table;
 
 use ancf::element::LineElement;
 use ancf::linear::BorderedMatrix;
+use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
-use ancf::scalar::{EightLanes, LaneKernel, Scalar, dispatch};
+use ancf::scalar::dispatch;
 use ancf::system::{ForceLaw, State};
 
-use crate::friction::FrictionLaw;
-use crate::profile::Profile;
+pub use point::PointContact;
 
-/// Integration points computed side by side.
-const LANES: usize = 8;
-/// Most vectors that a centre line reads.
-const MAX_VECTORS: usize = 4;
+use crate::friction::Law;
+use crate::load::ExternalTorque;
+use memory::Bristles;
+use point::Meeting;
+use table::{LANES, Line, MAX_VECTORS, Table};
 
 /// A pulley as the contact sees it.
 #[derive(Clone, Debug)]
 pub struct ContactPulley {
     /// Centre O [m].
     pub center: [f64; 2],
-    /// Radius R [m].
+    /// Radius R of the surface [m].
     pub radius: f64,
-    /// External torque [N m].
-    pub torque: Profile,
+    /// Friction of its surface.
+    pub friction: Law,
+    /// Height [m] over the belt's centre line of the line that touches the pulley, along the section's
+    /// slope: 0 for the centre line, plus or minus half the thickness for the faces.
+    pub height: f64,
+    /// Torque from outside of the drive.
+    pub external: ExternalTorque,
 }
 
 /// The penalty law in the normal direction.
@@ -52,159 +65,6 @@ pub struct Penalty {
     pub damping: f64,
     /// Whether the normal force is kept from pulling.
     pub clamp: bool,
-}
-
-/// What happens at one point of the belt in contact (all zero outside).
-#[derive(Clone, Copy, Debug)]
-pub struct PointContact<S> {
-    /// Penetration d [m], negative outside.
-    pub penetration: S,
-    /// Its rate d' [m/s].
-    pub rate: S,
-    /// Outward unit normal n.
-    pub normal: [S; 2],
-    /// Normal force per length f_n [N/m], positive pushes outwards.
-    pub normal_force: S,
-    /// Friction force per length f_t [N/m] on the belt, positive counter-clockwise.
-    pub friction_force: S,
-    /// Slip velocity v_t [m/s].
-    pub slip: S,
-    /// Belt velocity in the direction t [m/s].
-    pub tangential_velocity: S,
-    // For the derivatives.
-    by_penetration: S,
-    by_rate: S,
-    friction_by_slip: S,
-    friction_by_normal: S,
-    inverse_distance: S,
-}
-
-impl<S: Scalar> PointContact<S> {
-    /// Contact of a point at `r` moving at `v` with a pulley turning at `speed` [rad/s].
-    #[inline(always)]
-    fn new<F: FrictionLaw>(
-        penalty: &Penalty,
-        friction: &F,
-        pulley: &ContactPulley,
-        speed: f64,
-        r: [S; 2],
-        v: [S; 2],
-    ) -> Self {
-        let arm = [r[0] - pulley.center[0], r[1] - pulley.center[1]];
-        let distance = (arm[0] * arm[0] + arm[1] * arm[1]).sqrt();
-        let inverse_distance = distance.recip();
-        let n = [arm[0] * inverse_distance, arm[1] * inverse_distance];
-        let penetration = -distance + pulley.radius;
-        let rate = -(n[0] * v[0] + n[1] * v[1]);
-        let tangential_velocity = n[0] * v[1] - n[1] * v[0];
-        let slip = tangential_velocity - speed * pulley.radius;
-        let zero = S::zero();
-        let touching = |x: S| penetration.select_positive(x, zero);
-        let force = penetration * penalty.stiffness + rate * penalty.damping;
-        let pushing = |x: S| {
-            if penalty.clamp {
-                touching(force.select_positive(x, zero))
-            } else {
-                touching(x)
-            }
-        };
-        let normal_force = pushing(force);
-        let developed = friction.develop(slip, normal_force.abs());
-        let sign = normal_force.select_positive(S::constant(1.0), S::constant(-1.0));
-        Self {
-            penetration,
-            rate,
-            normal: n,
-            normal_force,
-            friction_force: -touching(developed.force),
-            slip,
-            tangential_velocity,
-            by_penetration: pushing(S::constant(penalty.stiffness)),
-            by_rate: pushing(S::constant(penalty.damping)),
-            friction_by_slip: -touching(developed.by_slip),
-            friction_by_normal: -touching(developed.by_normal) * sign,
-            inverse_distance,
-        }
-    }
-
-    /// Force per length on the belt.
-    #[inline(always)]
-    pub fn force(&self) -> [S; 2] {
-        let ([n0, n1], fn_, ft) = (self.normal, self.normal_force, self.friction_force);
-        [fn_ * n0 - ft * n1, fn_ * n1 + ft * n0]
-    }
-
-    /// Torque per length on the pulley of the given radius.
-    #[inline(always)]
-    pub fn torque(&self, radius: f64) -> S {
-        -((-self.penetration + radius) * self.friction_force)
-    }
-
-    /// Power per length that friction takes [W/m].
-    #[inline(always)]
-    fn friction_loss(&self, radius: f64, speed: f64) -> S {
-        -(self.friction_force * (self.tangential_velocity - (-self.penetration + radius) * speed))
-    }
-
-    /// `-(gq d/dr + gv d/dv)` of force and torque, `-gv d/d speed` of both.
-    #[inline(always)]
-    fn tangent(&self, radius: f64, gq: f64, gv: f64) -> PointTangent<S> {
-        let n = self.normal;
-        let t = [-n[1], n[0]];
-        let (fn_, ft) = (self.normal_force, self.friction_force);
-        let per = self.inverse_distance;
-        let radial_velocity = -self.rate;
-        // gradients by (r, v) combined: gq d/dr + gv d/dv, split into parts along n and t
-        let d_n = S::constant(-gq);
-        let rate_n = S::constant(-gv);
-        let rate_t = -(self.tangential_velocity * per) * gq;
-        let slip_t = -(radial_velocity * per) * gq + gv;
-        let fn_n = self.by_penetration * d_n + self.by_rate * rate_n;
-        let fn_t = self.by_rate * rate_t;
-        let ft_n = self.friction_by_normal * fn_n;
-        let ft_t = self.friction_by_normal * fn_t + self.friction_by_slip * slip_t;
-        // f = fn n + ft t; dn = t (t.dr)/rho, dt = -n (t.dr)/rho
-        let turn = per * gq;
-        let nn = fn_n;
-        let nt = fn_t - ft * turn;
-        let tn = ft_n;
-        let tt = ft_t + fn_ * turn;
-        let matrix =
-            |i: usize, j: usize| -(n[i] * (nn * n[j] + nt * t[j]) + t[i] * (tn * n[j] + tt * t[j]));
-        let lever = -self.penetration + radius;
-        // torque = -(R - d) ft
-        let torque_n = ft * d_n - lever * ft_n;
-        let torque_t = -(lever * ft_t);
-        let slip_by_speed = -radius * gv;
-        let ft_by_speed = self.friction_by_slip * slip_by_speed;
-        PointTangent {
-            force: [[matrix(0, 0), matrix(0, 1)], [matrix(1, 0), matrix(1, 1)]],
-            force_by_speed: [-(t[0] * ft_by_speed), -(t[1] * ft_by_speed)],
-            torque: [
-                -(torque_n * n[0] + torque_t * t[0]),
-                -(torque_n * n[1] + torque_t * t[1]),
-            ],
-            torque_by_speed: lever * ft_by_speed,
-        }
-    }
-}
-
-/// Derivatives of [`PointContact`], signs and factors as the effective matrix wants them.
-struct PointTangent<S> {
-    force: [[S; 2]; 2],
-    force_by_speed: [S; 2],
-    torque: [S; 2],
-    torque_by_speed: S,
-}
-
-/// Shape functions of the centre line at the contact points of an element.
-#[derive(Clone, Debug)]
-struct Table {
-    /// Per batch of points, per vector of the centre line.
-    shape: Vec<[[f64; LANES]; MAX_VECTORS]>,
-    /// Quadrature weight times length [m]; zero in lanes without a point.
-    weight: Vec<[f64; LANES]>,
-    length: f64,
 }
 
 /// What the belt does to one pulley, summed over the contact.
@@ -237,45 +97,75 @@ pub struct BeltPoint {
     pub xi: f64,
     /// Quadrature weight times length [m].
     pub weight: f64,
-    /// Position [m].
+    /// Position on the centre line [m].
     pub position: [f64; 2],
-    /// Velocity [m/s].
+    /// Velocity there [m/s].
     pub velocity: [f64; 2],
     /// The pulley it touches and the contact there.
     pub contact: Option<(usize, PointContact<f64>)>,
 }
 
-/// Contact of a closed belt of elements `E` with pulleys under friction law `F`, and the external
-/// torques on the pulleys. Pulley `p` turns with rigid coordinate `p`.
+/// Contact of a belt with pulleys, and the external torques on the pulleys. Pulley `p` turns
+/// with rigid coordinate `p`.
 #[derive(Clone, Debug)]
-pub struct BeltContact<E, F> {
+pub struct BeltContact {
     /// The pulleys.
     pub pulleys: Vec<ContactPulley>,
-    /// The friction law.
-    pub friction: F,
     penalty: Penalty,
     rule: Rule,
+    /// Whether the last element ends in the first node, or in one of its own that joins it.
+    closed: bool,
+    /// Coordinates and vectors of a node.
+    node_dof: usize,
+    node_vectors: usize,
+    line: Line,
+    /// Greatest distance of a contact line from the centre line [m].
+    highest: f64,
+    /// Which contact line touches each pulley.
+    line_of: Vec<usize>,
+    lines: usize,
+    /// Tables by kind of element and contact line; the last line of each kind is the centre line.
     tables: Vec<Table>,
-    /// Table of each element.
-    table_of: Vec<usize>,
+    /// Kind of each element.
+    kind_of: Vec<usize>,
+    /// Where bristles stand, by element and batch; empty without a law that remembers.
+    bristles: Vec<Bristles>,
+    /// Memory for the next state of them.
+    next_bristles: Vec<Bristles>,
     /// Element matrix, allocated once.
     local: Vec<f64>,
-    element: PhantomData<E>,
 }
 
-impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
-    /// Contact of a belt of `elements` (closed) with `pulleys`, integrated by `rule` along each.
+impl BeltContact {
+    /// Contact of a belt of the elements of `mesh` with `pulleys`, integrated by `rule` along each.
     #[must_use]
-    pub fn new(
-        elements: &[E],
+    pub fn new<E: LineElement>(
+        mesh: &Mesh<E>,
         pulleys: Vec<ContactPulley>,
         penalty: Penalty,
-        friction: F,
         rule: Rule,
     ) -> Self {
+        let mut heights: Vec<f64> = Vec::new();
+        let line_of = pulleys
+            .iter()
+            .map(|pulley| {
+                heights
+                    .iter()
+                    .position(|height| *height == pulley.height)
+                    .unwrap_or_else(|| {
+                        heights.push(pulley.height);
+                        heights.len() - 1
+                    })
+            })
+            .collect();
+        let highest = heights.iter().fold(0.0, |h: f64, y| h.max(y.abs()));
+        let line = Line::new::<E>(highest);
+        // The centre line is observed wherever the contact is.
+        heights.push(0.0);
         let mut tables: Vec<Table> = Vec::new();
         let mut known: Vec<&E> = Vec::new();
-        let table_of = elements
+        let kind_of = mesh
+            .elements()
             .iter()
             .map(|element| {
                 known
@@ -283,112 +173,90 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
                     .rposition(|other| *other == element)
                     .unwrap_or_else(|| {
                         known.push(element);
-                        tables.push(Table::new(element, &rule));
-                        tables.len() - 1
+                        for height in &heights {
+                            tables.push(Table::new(element, &line, &rule, *height));
+                        }
+                        known.len() - 1
                     })
             })
             .collect();
-        Self {
+        let mut contact = Self {
             pulleys,
-            friction,
             penalty,
             rule,
+            closed: mesh.is_closed(),
+            node_dof: E::NODE_DOF,
+            node_vectors: E::NODE_VECTORS,
+            line,
+            highest,
+            line_of,
+            lines: heights.len(),
             tables,
-            table_of,
+            kind_of,
+            bristles: Vec::new(),
+            next_bristles: Vec::new(),
             local: vec![0.0; E::DOF * E::DOF],
-            element: PhantomData,
-        }
+        };
+        contact.forget();
+        contact
     }
 
-    /// The same contact under another friction law.
-    #[must_use]
-    pub fn with_friction<G: FrictionLaw>(self, friction: G) -> BeltContact<E, G> {
-        BeltContact {
-            pulleys: self.pulleys,
-            friction,
-            penalty: self.penalty,
-            rule: self.rule,
-            tables: self.tables,
-            table_of: self.table_of,
-            local: self.local,
-            element: PhantomData,
+    /// Gives the pulleys other friction laws, all bristles unbent.
+    pub fn set_friction(&mut self, laws: impl IntoIterator<Item = Law>) {
+        for (pulley, law) in self.pulleys.iter_mut().zip(laws) {
+            pulley.friction = law;
         }
+        self.forget();
+    }
+
+    fn forget(&mut self) {
+        let remembers = self.pulleys.iter().any(|p| p.friction.has_memory());
+        let count = if remembers {
+            self.kind_of.len() * self.batches()
+        } else {
+            0
+        };
+        self.bristles = vec![Bristles::NONE; count];
+        self.next_bristles = vec![Bristles::NONE; count];
+    }
+
+    /// Batches of points of an element.
+    fn batches(&self) -> usize {
+        self.rule.points.len().div_ceil(LANES)
+    }
+
+    fn table(&self, element: usize, line: usize) -> &Table {
+        &self.tables[self.kind_of[element] * self.lines + line]
+    }
+
+    /// A disc that holds the element (see [`Table::hull`]).
+    #[inline(always)]
+    fn hull(&self, element: usize, vectors: &[[f64; 2]; MAX_VECTORS]) -> ([f64; 2], f64) {
+        self.table(element, 0)
+            .hull(&self.line, self.highest, vectors)
     }
 
     fn rotors(&self) -> usize {
-        self.table_of.len() * E::NODE_DOF
+        (self.kind_of.len() + usize::from(!self.closed)) * self.node_dof
     }
 
     /// First coordinate of the node of local vector `vector` of `element`.
     #[inline(always)]
     fn coordinate(&self, element: usize, vector: usize) -> usize {
-        let node = if vector < E::NODE_VECTORS {
+        let node = if vector < self.node_vectors {
             element
-        } else if element + 1 == self.table_of.len() {
+        } else if self.closed && element + 1 == self.kind_of.len() {
             0
         } else {
             element + 1
         };
-        node * E::NODE_DOF + (vector % E::NODE_VECTORS) * 2
-    }
-
-    /// Runs `work` for every batch of points of an element that may touch a pulley.
-    #[inline(always)]
-    fn for_contacts<S: EightLanes>(&self, state: State<'_>, mut work: impl FnMut(&Batch<'_, S>)) {
-        let count = E::CENTRE_VECTORS.len();
-        let rotors = self.rotors();
-        for (element, table) in self.table_of.iter().enumerate() {
-            let table = &self.tables[*table];
-            let mut at = [0; MAX_VECTORS];
-            let mut position = [[0.0; 2]; MAX_VECTORS];
-            for (slot, vector) in E::CENTRE_VECTORS.iter().enumerate() {
-                at[slot] = self.coordinate(element, *vector);
-                position[slot] = [state.q[at[slot]], state.q[at[slot] + 1]];
-            }
-            let (middle, reach) = hull(&position[..count], table.length);
-            for (p, pulley) in self.pulleys.iter().enumerate() {
-                let (dx, dy) = (middle[0] - pulley.center[0], middle[1] - pulley.center[1]);
-                let limit = pulley.radius + reach;
-                if dx * dx + dy * dy >= limit * limit {
-                    continue;
-                }
-                let speed = state.v[rotors + p];
-                for (stored, weight) in table.shape.iter().zip(&table.weight) {
-                    let mut shape = [S::zero(); MAX_VECTORS];
-                    let mut r = [S::zero(); 2];
-                    let mut v = [S::zero(); 2];
-                    for slot in 0..count {
-                        shape[slot] = S::load(&stored[slot]);
-                        for axis in 0..2 {
-                            r[axis] += shape[slot] * position[slot][axis];
-                            v[axis] += shape[slot] * state.v[at[slot] + axis];
-                        }
-                    }
-                    work(&Batch {
-                        element,
-                        pulley: p,
-                        speed,
-                        at: &at,
-                        shape,
-                        weight: S::load(weight),
-                        contact: PointContact::new(
-                            &self.penalty,
-                            &self.friction,
-                            pulley,
-                            speed,
-                            r,
-                            v,
-                        ),
-                    });
-                }
-            }
-        }
+        node * self.node_dof + (vector % self.node_vectors) * 2
     }
 
     /// Torque, hub force, slip and power on every pulley.
     pub fn resultants(&self, state: State<'_>, out: &mut [PulleyContact]) {
         out.fill(PulleyContact::default());
-        dispatch(Resultants {
+        dispatch(kernels::Resultants {
             contact: self,
             state,
             out,
@@ -400,121 +268,77 @@ impl<E: LineElement, F: FrictionLaw> BeltContact<E, F> {
         }
     }
 
-    /// Every integration point along the belt, in order.
-    pub fn points(&self, state: State<'_>) -> Vec<BeltPoint> {
-        let rotors = self.rotors();
-        let mut weights = vec![0.0; E::NODES * E::NODE_VECTORS];
-        let mut points = Vec::with_capacity(self.table_of.len() * self.rule.points.len());
-        for element in 0..self.table_of.len() {
-            let table = &self.tables[self.table_of[element]];
+    /// Writes every integration point along the belt, in order, to `points`.
+    pub fn points(&self, state: State<'_>, points: &mut Vec<BeltPoint>) {
+        points.clear();
+        let centre = self.lines - 1;
+        for element in 0..self.kind_of.len() {
+            let mut at = [0; MAX_VECTORS];
+            for (slot, vector) in self.line.vectors.iter().enumerate() {
+                at[slot] = self.coordinate(element, *vector);
+            }
             for (k, xi) in self.rule.points.iter().enumerate() {
                 let (batch, lane) = (k / LANES, k % LANES);
-                weights.fill(0.0);
-                for (slot, vector) in E::CENTRE_VECTORS.iter().enumerate() {
-                    weights[*vector] = table.shape[batch][slot][lane];
-                }
-                let mut position = [0.0; 2];
-                let mut velocity = [0.0; 2];
-                for vector in E::CENTRE_VECTORS {
-                    let at = self.coordinate(element, *vector);
-                    for axis in 0..2 {
-                        position[axis] += weights[*vector] * state.q[at + axis];
-                        velocity[axis] += weights[*vector] * state.v[at + axis];
+                let on_line = |line: usize| {
+                    let shape = &self.table(element, line).batches[batch].by_lane[lane];
+                    let (mut r, mut v) = ([0.0; 2], [0.0; 2]);
+                    for (slot, at) in at[..self.line.vectors.len()].iter().enumerate() {
+                        for axis in 0..2 {
+                            r[axis] += shape[slot] * state.q[at + axis];
+                            v[axis] += shape[slot] * state.v[at + axis];
+                        }
                     }
-                }
-                let contact = self.pulleys.iter().enumerate().find_map(|(p, pulley)| {
-                    let speed = state.v[rotors + p];
-                    let contact = PointContact::new(
-                        &self.penalty,
-                        &self.friction,
-                        pulley,
-                        speed,
-                        position,
-                        velocity,
-                    );
+                    (r, v)
+                };
+                let contact = (0..self.pulleys.len()).find_map(|p| {
+                    let (r, v) = on_line(self.line_of[p]);
+                    let meeting = Meeting {
+                        r,
+                        v,
+                        speed: state.v[self.rotors() + p],
+                        anchor: self.anchor(element * self.batches() + batch, lane, p, state.q),
+                    };
+                    let contact = PointContact::new(&self.penalty, &self.pulleys[p], &meeting);
                     (contact.penetration > 0.0).then_some((p, contact))
                 });
+                let (position, velocity) = on_line(centre);
                 points.push(BeltPoint {
                     element,
                     xi: *xi,
-                    weight: table.weight[batch][lane],
+                    weight: self.table(element, centre).batches[batch].weight[lane],
                     position,
                     velocity,
                     contact,
                 });
             }
         }
-        points
     }
-}
 
-/// A batch of points of one element facing one pulley.
-struct Batch<'a, S> {
-    element: usize,
-    pulley: usize,
-    speed: f64,
-    /// First coordinate of each vector of the centre line.
-    at: &'a [usize; MAX_VECTORS],
-    shape: [S; MAX_VECTORS],
-    weight: S,
-    contact: PointContact<S>,
-}
-
-/// Centre and radius of a disc that holds the centre line: the hull of its Bézier points for a cubic
-/// (r1, r1_x, r2, r2_x), of its ends for a line.
-#[inline(always)]
-fn hull(vectors: &[[f64; 2]], length: f64) -> ([f64; 2], f64) {
-    let cubic = vectors.len() == 4;
-    let (first, last) = (vectors[0], vectors[if cubic { 2 } else { 1 }]);
-    let middle = [0.5 * (first[0] + last[0]), 0.5 * (first[1] + last[1])];
-    let square = |x: f64, y: f64| (x - middle[0]).powi(2) + (y - middle[1]).powi(2);
-    let mut reach = square(first[0], first[1]);
-    if cubic {
-        let third = length / 3.0;
-        let (a, b) = (vectors[1], vectors[3]);
-        reach = reach
-            .max(square(first[0] + third * a[0], first[1] + third * a[1]))
-            .max(square(last[0] - third * b[0], last[1] - third * b[1]));
-    }
-    (middle, reach.sqrt())
-}
-
-impl Table {
-    fn new<E: LineElement>(element: &E, rule: &Rule) -> Self {
-        let batches = rule.points.len().div_ceil(LANES);
-        let zero = [0.0; LANES];
-        let mut table = Self {
-            shape: vec![[zero; MAX_VECTORS]; batches],
-            weight: vec![zero; batches],
-            length: element.length(),
-        };
-        let mut weights = vec![0.0; E::NODES * E::NODE_VECTORS];
-        for lane in 0..batches * LANES {
-            // lanes without a point repeat the last one with weight zero
-            let k = lane.min(rule.points.len() - 1);
-            element.centre_line(rule.points[k], &mut weights);
-            let (batch, lane_of) = (lane / LANES, lane % LANES);
-            for (slot, vector) in E::CENTRE_VECTORS.iter().enumerate() {
-                table.shape[batch][slot][lane_of] = weights[*vector];
-            }
-            if lane < rule.points.len() {
-                table.weight[batch][lane_of] = rule.weights[k] * element.length();
-            }
+    /// Where the bristle of one point stands on `pulley` in global axes, zero if it has none; `None` on
+    /// pulleys whose law does not remember.
+    fn anchor(&self, batch: usize, lane: usize, pulley: usize, q: &[f64]) -> Option<[f64; 2]> {
+        if !self.pulleys[pulley].friction.has_memory() {
+            return None;
         }
-        table
+        let bristles = &self.bristles[batch];
+        let stands = bristles.stands_on(pulley)[lane];
+        let (s, c) = q[self.rotors() + pulley].sin_cos();
+        let (x, y) = (bristles.x[lane] * stands, bristles.y[lane] * stands);
+        Some([c * x - s * y, s * x + c * y])
     }
 }
 
-impl<E: LineElement, F: FrictionLaw> ForceLaw for BeltContact<E, F> {
+impl ForceLaw for BeltContact {
     fn add_force(&mut self, state: State<'_>, force: &mut [f64]) {
-        dispatch(AddForce {
+        dispatch(kernels::AddForce {
             contact: self,
             state,
             force,
         });
         let rotors = self.rotors();
         for (p, pulley) in self.pulleys.iter().enumerate() {
-            force[rotors + p] += pulley.torque.value(state.time);
+            let speed = state.v[rotors + p];
+            force[rotors + p] += pulley.external.value(state.time, speed);
         }
     }
 
@@ -526,7 +350,7 @@ impl<E: LineElement, F: FrictionLaw> ForceLaw for BeltContact<E, F> {
         matrix: &mut BorderedMatrix,
     ) {
         let mut local = std::mem::take(&mut self.local);
-        dispatch(AddTangent {
+        dispatch(kernels::AddTangent {
             contact: self,
             state,
             position_factor,
@@ -535,151 +359,23 @@ impl<E: LineElement, F: FrictionLaw> ForceLaw for BeltContact<E, F> {
             matrix,
         });
         self.local = local;
+        for (p, pulley) in self.pulleys.iter().enumerate() {
+            let slope = pulley.external.derivative(state.v[self.rotors() + p]);
+            matrix.add_corner(p, p, -velocity_factor * slope);
+        }
     }
-}
 
-/// The sum over the lanes.
-#[inline(always)]
-fn sum<S: EightLanes>(x: S) -> f64 {
-    let [a, b, c, d, e, f, g, h] = x.store();
-    ((a + b) + (c + d)) + ((e + f) + (g + h))
-}
-
-/// The work of [`BeltContact::resultants`].
-struct Resultants<'a, E, F> {
-    contact: &'a BeltContact<E, F>,
-    state: State<'a>,
-    out: &'a mut [PulleyContact],
-}
-
-impl<E: LineElement, F: FrictionLaw> LaneKernel for Resultants<'_, E, F> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: EightLanes>(self) {
-        let (this, out) = (self.contact, self.out);
-        this.for_contacts::<S>(
-            self.state,
-            #[inline(always)]
-            |batch| {
-                let radius = this.pulleys[batch.pulley].radius;
-                let contact = &batch.contact;
-                let weight = contact.penetration.select_positive(batch.weight, S::zero());
-                let total = &mut out[batch.pulley];
-                let force = contact.force();
-                total.torque += sum(contact.torque(radius) * weight);
-                total.hub_force[0] -= sum(force[0] * weight);
-                total.hub_force[1] -= sum(force[1] * weight);
-                total.length += sum(weight);
-                total.slip_speed += sum(contact.slip * weight);
-                total.friction_loss += sum(contact.friction_loss(radius, batch.speed) * weight);
-                let elastic = contact.penetration * this.penalty.stiffness;
-                total.contact_loss += sum((contact.normal_force - elastic) * contact.rate * weight);
-                total.stored_energy += sum(elastic * contact.penetration * 0.5 * weight);
-                let deepest = weight.select_positive(contact.penetration, S::zero());
-                for penetration in deepest.store() {
-                    total.penetration = total.penetration.max(penetration);
-                }
-            },
-        );
-    }
-}
-
-/// The work of [`ForceLaw::add_force`].
-struct AddForce<'a, E, F> {
-    contact: &'a BeltContact<E, F>,
-    state: State<'a>,
-    force: &'a mut [f64],
-}
-
-impl<E: LineElement, F: FrictionLaw> LaneKernel for AddForce<'_, E, F> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: EightLanes>(self) {
-        let (this, force) = (self.contact, self.force);
-        let rotors = this.rotors();
-        this.for_contacts::<S>(
-            self.state,
-            #[inline(always)]
-            |batch| {
-                let f = batch.contact.force();
-                let torque = batch.contact.torque(this.pulleys[batch.pulley].radius);
-                force[rotors + batch.pulley] += sum(torque * batch.weight);
-                let weighted = [f[0] * batch.weight, f[1] * batch.weight];
-                for slot in 0..E::CENTRE_VECTORS.len() {
-                    for axis in 0..2 {
-                        force[batch.at[slot] + axis] += sum(batch.shape[slot] * weighted[axis]);
-                    }
-                }
-            },
-        );
-    }
-}
-
-/// The work of [`ForceLaw::add_tangent`].
-struct AddTangent<'a, E, F> {
-    contact: &'a BeltContact<E, F>,
-    state: State<'a>,
-    position_factor: f64,
-    velocity_factor: f64,
-    /// Element matrix.
-    local: &'a mut [f64],
-    matrix: &'a mut BorderedMatrix,
-}
-
-impl<E: LineElement, F: FrictionLaw> LaneKernel for AddTangent<'_, E, F> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: EightLanes>(self) {
-        let Self {
-            contact: this,
+    fn accept(&mut self, state: State<'_>) {
+        if self.bristles.is_empty() {
+            return;
+        }
+        let mut next = std::mem::take(&mut self.next_bristles);
+        next.fill(Bristles::NONE);
+        dispatch(kernels::Accept {
+            contact: self,
             state,
-            position_factor,
-            velocity_factor,
-            local,
-            matrix,
-        } = self;
-        let (dof, vectors) = (E::DOF, E::CENTRE_VECTORS);
-        this.for_contacts::<S>(
-            state,
-            #[inline(always)]
-            |batch| {
-                if batch.contact.penetration.store().iter().all(|d| *d <= 0.0) {
-                    return;
-                }
-                let radius = this.pulleys[batch.pulley].radius;
-                let tangent = batch
-                    .contact
-                    .tangent(radius, position_factor, velocity_factor);
-                local.fill(0.0);
-                for (a, row) in vectors.iter().enumerate() {
-                    let weighted = batch.shape[a] * batch.weight;
-                    let left: [[S; 2]; 2] = std::array::from_fn(|i| {
-                        std::array::from_fn(|j| tangent.force[i][j] * weighted)
-                    });
-                    for (b, column) in vectors.iter().enumerate() {
-                        let at = 2 * row * dof + 2 * column;
-                        local[at] = sum(left[0][0] * batch.shape[b]);
-                        local[at + 1] = sum(left[0][1] * batch.shape[b]);
-                        local[at + dof] = sum(left[1][0] * batch.shape[b]);
-                        local[at + dof + 1] = sum(left[1][1] * batch.shape[b]);
-                    }
-                    let column: [f64; 2] =
-                        std::array::from_fn(|i| sum(tangent.force_by_speed[i] * weighted));
-                    let torque: [f64; 2] =
-                        std::array::from_fn(|i| sum(tangent.torque[i] * weighted));
-                    matrix.add_border_column(batch.pulley, batch.at[a], &column);
-                    matrix.add_border_row(batch.pulley, batch.at[a], &torque);
-                }
-                matrix.add_pair(batch.element, 1.0, local);
-                matrix.add_corner(
-                    batch.pulley,
-                    batch.pulley,
-                    sum(tangent.torque_by_speed * batch.weight),
-                );
-            },
-        );
+            next: &mut next,
+        });
+        self.next_bristles = std::mem::replace(&mut self.bristles, next);
     }
 }

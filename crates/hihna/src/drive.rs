@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
+use crate::load::{ExternalTorque, Load};
 use crate::profile::{self, Profile};
 use crate::units;
 
@@ -35,6 +36,10 @@ pub enum BeltElement {
     /// Planar shear-deformable belt beam with cubic centre line, 12 coordinates.
     #[default]
     BeltBeam,
+    /// Planar fully parametrised cubic beam (Omar & Shabana 2001), 12 coordinates.
+    CubicBeam,
+    /// Planar linear beam with one integration point, 8 coordinates.
+    LinearBeam,
 }
 
 /// The belt. Exactly one of `length`, `tension`, `strain` says how tight it is.
@@ -88,10 +93,24 @@ pub struct Belt {
     #[serde(default)]
     #[schemars(schema_with = "units::time", extend("minimum" = 0.0))]
     pub damping_time: f64,
+    /// How the belt's ends are joined.
+    #[serde(default)]
+    pub joint: Joint,
     /// Where the first node starts: path length from mid-wrap of the first pulley [m].
     #[serde(default)]
     #[schemars(schema_with = "units::length")]
     pub first_node: f64,
+}
+
+/// How the belt's ends are joined to a loop. Both give the same motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Joint {
+    /// The last element ends in the first node.
+    #[default]
+    Shared,
+    /// The last element has an end of its own, tied to the first node by Lagrange multipliers.
+    Multipliers,
 }
 
 /// Contact along the belt.
@@ -105,8 +124,14 @@ pub struct Contact {
     #[serde(default)]
     #[schemars(schema_with = "units::damping_per_length", extend("minimum" = 0.0))]
     pub damping: f64,
-    /// The friction law.
+    /// The friction law of the belt's inner face, and of its back where `back_friction` is absent.
     pub friction: Friction,
+    /// The friction law of the belt's back, on pulleys with `wrap = "outside"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back_friction: Option<Friction>,
+    /// Which line of the belt touches the pulleys.
+    #[serde(default)]
+    pub surface: Surface,
     /// Gauss points per element.
     #[serde(default = "default_points", serialize_with = "count")]
     #[schemars(extend("minimum" = 1, "maximum" = 64))]
@@ -138,6 +163,62 @@ pub enum Friction {
         #[schemars(schema_with = "units::velocity", extend("exclusiveMinimum" = 0.0))]
         velocity: f64,
     },
+    /// Coulomb friction whose coefficient falls with the slip velocity:
+    /// `sliding + (static - sliding) / (1 + (v / stribeck_velocity)²)`.
+    Stribeck {
+        /// Coefficient of friction at the onset of slip [-].
+        #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
+        static_coefficient: f64,
+        /// Coefficient of friction of fast slip [-].
+        #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
+        sliding_coefficient: f64,
+        /// Slip velocity at which half of the difference is gone [m/s].
+        #[schemars(schema_with = "units::velocity", extend("exclusiveMinimum" = 0.0))]
+        stribeck_velocity: f64,
+        /// Slip velocity at which friction is fully developed [m/s].
+        #[schemars(schema_with = "units::velocity", extend("exclusiveMinimum" = 0.0))]
+        velocity: f64,
+    },
+    /// Bristles that stick, bend and slide: `stiffness` times displacement within
+    /// `coefficient |f_n|`.
+    ElasticPlastic {
+        /// Coefficient of friction mu [-].
+        #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
+        coefficient: f64,
+        /// Stiffness of the bristles per length of belt [N/m²].
+        #[schemars(schema_with = "units::stiffness_per_length", extend("exclusiveMinimum" = 0.0))]
+        stiffness: f64,
+        /// Damping of the bristles per length of belt [N s/m²].
+        #[serde(default)]
+        #[schemars(schema_with = "units::damping_per_length", extend("minimum" = 0.0))]
+        damping: f64,
+    },
+}
+
+impl Friction {
+    /// Coefficient of friction of steady slip mu [-].
+    pub fn coefficient(&self) -> f64 {
+        match *self {
+            Self::CreepRate { coefficient, .. }
+            | Self::Coulomb { coefficient, .. }
+            | Self::ElasticPlastic { coefficient, .. }
+            | Self::Stribeck {
+                sliding_coefficient: coefficient,
+                ..
+            } => coefficient,
+        }
+    }
+}
+
+/// Which line of the belt touches the pulleys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Surface {
+    /// The centre line: a pulley's radius reaches to it.
+    #[default]
+    CentreLine,
+    /// The face that lies on the pulley, half the thickness from the centre line.
+    Face,
 }
 
 /// On which side of the belt a pulley lies.
@@ -166,6 +247,11 @@ pub struct Pulley {
     /// Side of the belt.
     #[serde(default)]
     pub wrap: Wrap,
+    /// Angle of its groove [rad], both flanks together: the belt wedges in, and friction acts
+    /// `1 / sin(angle / 2)` times. Absent: a flat face.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "units::angle", extend("exclusiveMinimum" = 0.0, "maximum" = 3.141_592_653_589_793))]
+    pub groove_angle: Option<f64>,
     /// Prescribed speed [rad/s], positive counter-clockwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "profile::angular_velocity")]
@@ -182,12 +268,72 @@ pub struct Pulley {
     #[serde(default = "zero_profile")]
     #[schemars(schema_with = "profile::torque")]
     pub torque: Profile,
+    /// External torque that depends on the speed, beside `torque`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<Load>,
+    /// Irregularity of the prescribed `speed`, order by order of the pulley's revolution.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub irregularity: Vec<Harmonic>,
+}
+
+/// A harmonic of a prescribed speed: with the mean speed `w(t)` and its angle `a(t)` the pulley turns at
+/// `w (1 + sum amplitude cos(order a + phase))`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Harmonic {
+    /// Periods per revolution [-]: 2 for a four-cylinder four-stroke engine.
+    #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
+    pub order: f64,
+    /// Amplitude relative to the mean speed [-].
+    #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
+    pub amplitude: f64,
+    /// Phase at angle zero [rad].
+    #[serde(default)]
+    #[schemars(schema_with = "units::angle")]
+    pub phase: f64,
 }
 
 impl Pulley {
     /// Whether the pulley's motion is prescribed.
     pub fn is_driver(&self) -> bool {
         self.speed.is_some() || self.angle.is_some()
+    }
+
+    /// All that acts on it from outside of the drive.
+    pub fn external_torque(&self) -> ExternalTorque {
+        ExternalTorque {
+            by_time: self.torque.clone(),
+            by_speed: self.load.clone(),
+        }
+    }
+
+    /// How many times its surface multiplies friction: 1 on a flat face, more in a groove.
+    pub fn grip(&self) -> f64 {
+        self.groove_angle
+            .map_or(1.0, |angle| (0.5 * angle).sin().recip())
+    }
+}
+
+impl Drive {
+    /// The friction that the belt's side on `pulley` has, before the pulley's groove.
+    pub fn friction_on(&self, pulley: &Pulley) -> &Friction {
+        match (&self.contact.back_friction, pulley.wrap) {
+            (Some(back), Wrap::Outside) => back,
+            _ => &self.contact.friction,
+        }
+    }
+
+    /// Coefficient of friction [-] on `pulley`, its groove taken in.
+    pub fn coefficient_on(&self, pulley: &Pulley) -> f64 {
+        self.friction_on(pulley).coefficient() * pulley.grip()
+    }
+
+    /// How far the belt's centre line runs from the surfaces of the pulleys [m].
+    pub fn pitch_offset(&self) -> f64 {
+        match self.contact.surface {
+            Surface::CentreLine => 0.0,
+            Surface::Face => 0.5 * self.belt.thickness,
+        }
     }
 }
 

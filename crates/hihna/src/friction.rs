@@ -1,78 +1,67 @@
-//! Friction laws: force per length of belt from slip velocity and normal force.
+//! Friction laws: force per length of belt from slip and normal force.
 //!
-//! A law is a type with one method. To add one: a type here, an arm in
-//! [`crate::drive::Friction`], a line in the dispatch of `simulate.rs` (see CONTRIBUTING.md).
+//! A law is a type with one method, in a file of its own. To add one: a file in `friction/`, a variant
+//! of [`Law`], one of [`crate::drive::Friction`] and the arms that the compiler then asks for (see
+//! CONTRIBUTING.md).
+
+mod coulomb;
+mod creep_rate;
+mod elastic_plastic;
+mod stribeck;
+
+pub use coulomb::Coulomb;
+pub use creep_rate::CreepRate;
+pub use elastic_plastic::ElasticPlastic;
+pub use stribeck::Stribeck;
 
 use std::fmt;
 
 use ancf::scalar::Scalar;
 
+use crate::drive::Friction;
+
+/// How a point of the belt moves against the surface of a pulley, positive counter-clockwise.
+#[derive(Clone, Copy, Debug)]
+pub struct Slip<S> {
+    /// Slip velocity v_t [m/s].
+    pub velocity: S,
+    /// Elastic displacement z since the point last stuck freely [m]; zero for laws without memory.
+    pub displacement: S,
+}
+
 /// Developed friction at a point: the force per length [N/m] in the direction of the slip (the belt
 /// feels its opposite) and its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct Developed<S> {
-    /// Force per length [N/m], with the sign of the slip velocity.
+    /// Force per length [N/m], with the sign of the slip.
     pub force: S,
     /// Derivative by the slip velocity [N s/m²].
-    pub by_slip: S,
+    pub by_velocity: S,
+    /// Derivative by the elastic displacement [N/m²].
+    pub by_displacement: S,
     /// Derivative by the magnitude of the normal force per length [-].
     pub by_normal: S,
 }
 
-/// A law of dry friction without memory.
+/// A law of dry friction.
 pub trait FrictionLaw: Clone + fmt::Debug + Send + Sync {
-    /// The friction at slip velocity `slip` [m/s] under a normal force per length of magnitude
-    /// `normal` [N/m].
-    fn develop<S: Scalar>(&self, slip: S, normal: S) -> Developed<S>;
-}
+    /// The friction under `slip` and a normal force per length of magnitude `normal` [N/m].
+    fn develop<S: Scalar>(&self, slip: Slip<S>, normal: S) -> Developed<S>;
 
-/// Tri-linear creep-rate law (Leamy & Wasfy 2002; Kerkkänen 2006, 3.23):
-/// `f_t = sign(v) min(v_s |v|, mu |f_n|)`, the slope a force per length and velocity.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CreepRate {
-    /// Coefficient of friction mu [-].
-    pub coefficient: f64,
-    /// Creep slope v_s [N s/m²].
-    pub slope: f64,
-}
-
-impl FrictionLaw for CreepRate {
-    #[inline(always)]
-    fn develop<S: Scalar>(&self, slip: S, normal: S) -> Developed<S> {
-        let limit = normal * self.coefficient;
-        let creep = slip * self.slope;
-        let within = limit - creep.abs();
-        let sign = slip.select_positive(S::constant(1.0), S::constant(-1.0));
-        Developed {
-            force: within.select_positive(creep, sign * limit),
-            by_slip: within.select_positive(S::constant(self.slope), S::zero()),
-            by_normal: within.select_positive(S::zero(), sign * self.coefficient),
-        }
+    /// For laws with memory: the largest elastic displacement [m] that a point under the normal force
+    /// per length `normal` [N/m] keeps at the end of a step. `None` for laws without memory.
+    fn elastic_limit(&self, normal: f64) -> Option<f64> {
+        let _ = normal;
+        None
     }
-}
 
-/// Coulomb's law regularised by a velocity: `f_t = mu |f_n| v / v_r` for `|v| < v_r`, `mu |f_n|`
-/// beyond. Unlike creep, the slope grows with the normal force.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coulomb {
-    /// Coefficient of friction mu [-].
-    pub coefficient: f64,
-    /// Slip velocity v_r at which friction is fully developed [m/s].
-    pub velocity: f64,
-}
+    /// The steepest rise of the force per length with the slip velocity [N s/m²] under a normal force
+    /// per length `normal` [N/m]: it bounds the steps of explicit integrators.
+    fn steepest_damping(&self, normal: f64) -> f64;
 
-impl FrictionLaw for Coulomb {
-    #[inline(always)]
-    fn develop<S: Scalar>(&self, slip: S, normal: S) -> Developed<S> {
-        let ratio = slip * (1.0 / self.velocity);
-        let within = -ratio.abs() + 1.0;
-        let sign = slip.select_positive(S::constant(1.0), S::constant(-1.0));
-        let part = within.select_positive(ratio, sign);
-        Developed {
-            force: part * normal * self.coefficient,
-            by_slip: within.select_positive(normal * (self.coefficient / self.velocity), S::zero()),
-            by_normal: part * self.coefficient,
-        }
+    /// The steepest rise of the force per length with the elastic displacement [N/m²].
+    fn steepest_stiffness(&self) -> f64 {
+        0.0
     }
 }
 
@@ -82,11 +71,109 @@ pub struct Frictionless;
 
 impl FrictionLaw for Frictionless {
     #[inline(always)]
-    fn develop<S: Scalar>(&self, _: S, _: S) -> Developed<S> {
+    fn develop<S: Scalar>(&self, _: Slip<S>, _: S) -> Developed<S> {
         Developed {
             force: S::zero(),
-            by_slip: S::zero(),
+            by_velocity: S::zero(),
+            by_displacement: S::zero(),
             by_normal: S::zero(),
         }
+    }
+
+    fn steepest_damping(&self, _: f64) -> f64 {
+        0.0
+    }
+}
+
+/// Any of the laws: what a pulley's surface does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// No friction.
+    Frictionless(Frictionless),
+    /// Creep-rate law.
+    CreepRate(CreepRate),
+    /// Regularised Coulomb law.
+    Coulomb(Coulomb),
+    /// Coulomb law that weakens with slip.
+    Stribeck(Stribeck),
+    /// Bristles with memory.
+    ElasticPlastic(ElasticPlastic),
+}
+
+impl Law {
+    /// The law that a drive file states, on a surface whose normal force acts `grip` times: 1 on a flat
+    /// face, `1 / sin(angle / 2)` in a groove. Only the coefficients of friction grow with it.
+    #[must_use]
+    pub fn new(friction: &Friction, grip: f64) -> Self {
+        match *friction {
+            Friction::CreepRate { coefficient, slope } => Self::CreepRate(CreepRate {
+                coefficient: coefficient * grip,
+                slope,
+            }),
+            Friction::Coulomb {
+                coefficient,
+                velocity,
+            } => Self::Coulomb(Coulomb {
+                coefficient: coefficient * grip,
+                velocity,
+            }),
+            Friction::Stribeck {
+                static_coefficient,
+                sliding_coefficient,
+                stribeck_velocity,
+                velocity,
+            } => Self::Stribeck(Stribeck {
+                static_coefficient: static_coefficient * grip,
+                sliding_coefficient: sliding_coefficient * grip,
+                stribeck_velocity,
+                velocity,
+            }),
+            Friction::ElasticPlastic {
+                coefficient,
+                stiffness,
+                damping,
+            } => Self::ElasticPlastic(ElasticPlastic {
+                coefficient: coefficient * grip,
+                stiffness,
+                damping,
+            }),
+        }
+    }
+
+    /// Whether the law remembers displacements.
+    pub fn has_memory(&self) -> bool {
+        self.elastic_limit(0.0).is_some()
+    }
+}
+
+/// Calls a method of whichever law it is.
+macro_rules! each {
+    ($self:ident, $law:ident => $call:expr) => {
+        match $self {
+            Self::Frictionless($law) => $call,
+            Self::CreepRate($law) => $call,
+            Self::Coulomb($law) => $call,
+            Self::Stribeck($law) => $call,
+            Self::ElasticPlastic($law) => $call,
+        }
+    };
+}
+
+impl FrictionLaw for Law {
+    #[inline(always)]
+    fn develop<S: Scalar>(&self, slip: Slip<S>, normal: S) -> Developed<S> {
+        each!(self, law => law.develop(slip, normal))
+    }
+
+    fn elastic_limit(&self, normal: f64) -> Option<f64> {
+        each!(self, law => law.elastic_limit(normal))
+    }
+
+    fn steepest_damping(&self, normal: f64) -> f64 {
+        each!(self, law => law.steepest_damping(normal))
+    }
+
+    fn steepest_stiffness(&self) -> f64 {
+        each!(self, law => law.steepest_stiffness())
     }
 }

@@ -9,7 +9,7 @@ pub struct History {
     values: Vec<f64>,
 }
 
-const PULLEY_COLUMNS: [&str; 7] = [
+const PULLEY_COLUMNS: [&str; 13] = [
     "angle",
     "speed",
     "torque",
@@ -17,8 +17,14 @@ const PULLEY_COLUMNS: [&str; 7] = [
     "hub_force_x",
     "hub_force_y",
     "slip_speed",
+    "contact_angle",
+    "slip_angle",
+    "tension_in",
+    "tension_out",
+    "power",
+    "friction_loss",
 ];
-const SPAN_COLUMNS: [&str; 2] = ["tension", "strain"];
+const SPAN_COLUMNS: [&str; 4] = ["tension", "strain", "speed", "deflection"];
 const ENERGY_COLUMNS: [&str; 9] = [
     "energy.kinetic",
     "energy.strain",
@@ -71,10 +77,16 @@ impl History {
                 p.hub_force[0],
                 p.hub_force[1],
                 p.slip_speed,
+                p.contact_angle,
+                p.slip_angle,
+                p.tension_in,
+                p.tension_out,
+                p.torque * p.speed,
+                p.friction_loss,
             ]);
         }
         for s in spans {
-            values.extend([s.tension, s.strain]);
+            values.extend([s.tension, s.strain, s.speed, s.deflection]);
         }
         values.extend([
             stored.kinetic,
@@ -128,6 +140,20 @@ impl History {
             .filter(|row| row[0] >= from && row[0] <= to)
             .fold((0.0, 0_usize), |(sum, n), row| (sum + row[index], n + 1));
         (count > 0).then(|| sum / count as f64)
+    }
+
+    /// Standard deviation of column `name` over times in `[from, to]`, by the rows.
+    #[must_use]
+    pub fn deviation(&self, name: &str, from: f64, to: f64) -> Option<f64> {
+        let index = self.columns.iter().position(|c| c == name)?;
+        let mean = self.mean(name, from, to)?;
+        let (sum, count) = self
+            .rows()
+            .filter(|row| row[0] >= from && row[0] <= to)
+            .fold((0.0, 0_usize), |(sum, n), row| {
+                (sum + (row[index] - mean).powi(2), n + 1)
+            });
+        (count > 0).then(|| (sum / count as f64).sqrt())
     }
 
     /// Mean of the product of two columns over times in `[from, to]`, by the rows.

@@ -25,7 +25,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::drive::{Pulley, Wrap};
+use crate::drive::{Drive, Pulley, Wrap};
 
 mod error;
 mod tangent;
@@ -124,6 +124,19 @@ impl Layout {
         } else {
             counter_clockwise
         }
+    }
+
+    /// The path of the centre line of `drive`'s belt.
+    pub fn of(drive: &Drive) -> Result<Self, LayoutError> {
+        let offset = drive.pitch_offset();
+        if offset == 0.0 {
+            return Self::new(&drive.pulley);
+        }
+        let mut pitch = drive.pulley.clone();
+        for pulley in &mut pitch {
+            pulley.radius += offset;
+        }
+        Self::new(&pitch)
     }
 
     /// The point at path coordinate `s` [m], which wraps around the loop; `s = 0` is mid-wrap of

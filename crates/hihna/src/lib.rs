@@ -7,6 +7,7 @@ pub mod friction;
 pub mod history;
 pub mod input;
 pub mod layout;
+pub mod load;
 pub mod number;
 pub mod observe;
 pub mod profile;

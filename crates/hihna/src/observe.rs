@@ -1,12 +1,22 @@
 //! What the user wants to know of a state: speeds, torques, tensions, slip, hub loads, energies.
 
+mod belt;
+mod profile;
+mod span;
+
 use ancf::dynamics::Motion;
 use ancf::element::{Element, LineElement};
-use ancf::mesh::Mesh;
 use ancf::system::{Mechanics, State, System};
 
-use crate::contact::{BeltContact, BeltPoint, PulleyContact};
-use crate::friction::FrictionLaw;
+use crate::contact::{BeltContact, PulleyContact};
+use crate::layout::Layout;
+
+use belt::BeltSurvey;
+pub use profile::ProfileRow;
+pub use span::SpanState;
+
+/// A belt of elements `E` on its pulleys.
+pub type BeltSystem<E> = System<E, BeltContact>;
 
 /// A pulley at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,21 +33,16 @@ pub struct PulleyState {
     pub hub_force: [f64; 2],
     /// Mean velocity of the belt against the pulley's surface over the contact [m/s].
     pub slip_speed: f64,
-    /// Undeformed length of belt in contact [m].
-    pub contact_length: f64,
+    /// Angle of the arc in contact [rad].
+    pub contact_angle: f64,
+    /// Angle of the part of it where friction is exhausted [rad].
+    pub slip_angle: f64,
+    /// True axial force where the belt runs on: mean over the element there [N].
+    pub tension_in: f64,
+    /// True axial force where the belt runs off: mean over the element there [N].
+    pub tension_out: f64,
     /// Power that friction takes on the pulley [W].
     pub friction_loss: f64,
-}
-
-/// A free span at one time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpanState {
-    /// Mean true axial force [N].
-    pub tension: f64,
-    /// Mean engineering strain [-].
-    pub strain: f64,
-    /// Mean speed along the belt [m/s].
-    pub speed: f64,
 }
 
 /// Energies stored at one time [J].
@@ -88,32 +93,8 @@ impl Powers {
     }
 }
 
-/// One row of the belt's profile; fields as in `profile.csv`, SI units.
-#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-#[expect(
-    missing_docs,
-    reason = "columns of profile.csv, described in the user guide"
-)]
-pub struct ProfileRow {
-    pub time: f64,
-    pub material_coordinate: f64,
-    pub x: f64,
-    pub y: f64,
-    pub z: f64,
-    pub tension: f64,
-    pub strain_green: f64,
-    pub strain_engineering: f64,
-    pub strain_true: f64,
-    pub strain_almansi: f64,
-    pub jacobian: f64,
-    pub speed: f64,
-    pub normal_force: f64,
-    pub friction_force: f64,
-    pub slip_speed: f64,
-    pub pulley: String,
-}
-
-/// Reads states of one system; holds its working memory.
+/// Reads states of one system; holds its working memory. [`Observer::look`] takes the sums over the
+/// contact in, [`Observer::survey`] every point of the belt too; the other methods answer from them.
 #[derive(Debug)]
 pub struct Observer {
     contacts: Vec<PulleyContact>,
@@ -121,12 +102,13 @@ pub struct Observer {
     rotors: Vec<(f64, bool)>,
     names: Vec<String>,
     damped: bool,
+    belt: BeltSurvey,
 }
 
 impl Observer {
     /// An observer of `system` whose pulleys are named `names`.
-    pub fn new<E: LineElement, F: FrictionLaw>(
-        system: &System<E, BeltContact<E, F>>,
+    pub fn new<E: LineElement>(
+        system: &BeltSystem<E>,
         names: Vec<String>,
         inertias: &[f64],
     ) -> Self {
@@ -144,55 +126,87 @@ impl Observer {
             rotors,
             names,
             damped: system.mesh().elements().iter().any(Element::is_damped),
+            belt: BeltSurvey::default(),
         }
     }
 
-    /// Every pulley, into `out`.
-    pub fn pulleys<E: LineElement, F: FrictionLaw>(
-        &mut self,
-        system: &System<E, BeltContact<E, F>>,
+    /// Takes in what the belt does to the pulleys at `motion`.
+    pub fn look<E: LineElement>(&mut self, system: &BeltSystem<E>, motion: &Motion) {
+        system.law.resultants(state(motion), &mut self.contacts);
+    }
+
+    /// Takes in every point of the belt at `motion` as well.
+    pub fn survey<E: LineElement>(&mut self, system: &BeltSystem<E>, motion: &Motion) {
+        self.look(system, motion);
+        self.belt.take(system, motion);
+    }
+
+    /// Angle, speed and external torque of pulley `p` at `motion`, which was looked at last.
+    fn rotor<E: LineElement>(
+        &self,
+        system: &BeltSystem<E>,
+        motion: &Motion,
+        p: usize,
+    ) -> (f64, f64, f64) {
+        let at = system.structure().chain() + p;
+        let (inertia, prescribed) = self.rotors[p];
+        let external = if prescribed {
+            inertia * motion.a[at] - self.contacts[p].torque
+        } else {
+            system.law.pulleys[p]
+                .external
+                .value(motion.time, motion.v[at])
+        };
+        (motion.q[at], motion.v[at], external)
+    }
+
+    /// Speed and torque (of the belt and external together) of pulley `p` at the state looked at last.
+    pub fn momentum<E: LineElement>(
+        &self,
+        system: &BeltSystem<E>,
+        motion: &Motion,
+        p: usize,
+    ) -> (f64, f64) {
+        let (_, speed, external) = self.rotor(system, motion, p);
+        (speed, self.contacts[p].torque + external)
+    }
+
+    /// Every pulley of the state surveyed last, into `out`.
+    pub fn pulleys<E: LineElement>(
+        &self,
+        system: &BeltSystem<E>,
         motion: &Motion,
         out: &mut [PulleyState],
     ) {
-        system.law.resultants(state(motion), &mut self.contacts);
-        let first = system.structure().chain();
         for (p, pulley) in out.iter_mut().enumerate() {
             let contact = &self.contacts[p];
-            let (inertia, prescribed) = self.rotors[p];
-            let external_torque = if prescribed {
-                inertia * motion.a[first + p] - contact.torque
-            } else {
-                system.law.pulleys[p].torque.value(motion.time)
-            };
+            let (angle, speed, external_torque) = self.rotor(system, motion, p);
+            let arc = self.belt.arc(p);
             *pulley = PulleyState {
-                angle: motion.q[first + p],
-                speed: motion.v[first + p],
+                angle,
+                speed,
                 torque: contact.torque,
                 external_torque,
                 hub_force: contact.hub_force,
                 slip_speed: contact.slip_speed,
-                contact_length: contact.length,
+                contact_angle: arc.contact_angle,
+                slip_angle: arc.slip_angle,
+                tension_in: arc.tension_in,
+                tension_out: arc.tension_out,
                 friction_loss: contact.friction_loss,
             };
         }
     }
 
-    /// The powers at `motion`; `pulleys` must be of the same state and freshly observed.
-    pub fn powers<E: LineElement, F: FrictionLaw>(
-        &self,
-        system: &System<E, BeltContact<E, F>>,
-        motion: &Motion,
-        pulleys: &[PulleyState],
-    ) -> Powers {
+    /// The powers at `motion`, which was looked at last.
+    pub fn powers<E: LineElement>(&self, system: &BeltSystem<E>, motion: &Motion) -> Powers {
         let mut powers = Powers::default();
-        for ((pulley, contact), (_, prescribed)) in
-            pulleys.iter().zip(&self.contacts).zip(&self.rotors)
-        {
-            let power = pulley.external_torque * pulley.speed;
-            if *prescribed {
-                powers.input += power;
+        for (p, contact) in self.contacts.iter().enumerate() {
+            let (_, speed, external) = self.rotor(system, motion, p);
+            if self.rotors[p].1 {
+                powers.input += external * speed;
             } else {
-                powers.load += power;
+                powers.load += external * speed;
             }
             powers.friction += contact.friction_loss;
             powers.contact += contact.contact_loss;
@@ -203,12 +217,8 @@ impl Observer {
         powers
     }
 
-    /// The stored energies at `motion`, whose pulleys were observed last.
-    pub fn stored<E: LineElement, F: FrictionLaw>(
-        &self,
-        system: &System<E, BeltContact<E, F>>,
-        motion: &Motion,
-    ) -> Stored {
+    /// The stored energies at `motion`, which was looked at last.
+    pub fn stored<E: LineElement>(&self, system: &BeltSystem<E>, motion: &Motion) -> Stored {
         Stored {
             kinetic: system.kinetic_energy(&motion.v),
             strain: system.strain_energy(&motion.q),
@@ -217,106 +227,27 @@ impl Observer {
         }
     }
 
-    /// The free spans: span `i` runs from pulley `i` to the next, and its values are means over the
-    /// belt between the last contact with the one and the first contact with the other. Where a
-    /// pulley has lost the belt, the spans beside it share one piece of belt.
-    pub fn spans<E: LineElement, F: FrictionLaw>(
-        &self,
-        system: &System<E, BeltContact<E, F>>,
-        motion: &Motion,
-        out: &mut [SpanState],
-    ) {
-        let points = system.law.points(state(motion));
-        let count = out.len();
-        out.fill(SpanState::default());
-        let on = |i: usize| points[i % points.len()].contact.map(|(p, _)| p);
-        let Some(start) = (0..points.len()).find(|i| on(*i).is_some()) else {
-            let whole = mean(system.mesh(), motion, &points, 0..points.len());
-            out.fill(whole);
-            return;
-        };
-        let mut i = start;
-        let end = start + points.len();
-        while i < end {
-            let Some(from) = on(i) else { break };
-            let mut next = i + 1;
-            while next <= end && on(next).is_none() {
-                next += 1;
-            }
-            if let Some(to) = on(next)
-                && next > i + 1
-                && to != from
-            {
-                let mean = mean(system.mesh(), motion, &points, i + 1..next);
-                let mut span = from;
-                while span != to {
-                    out[span] = mean;
-                    span = (span + 1) % count;
-                }
-            }
-            i = next;
-        }
+    /// The free spans of the state surveyed last, on the path `layout`.
+    pub fn spans(&self, layout: &Layout, out: &mut [SpanState]) {
+        self.belt.spans(layout, out);
     }
 
-    /// The belt at every contact integration point, in order of material coordinate.
-    pub fn profile<E: LineElement, F: FrictionLaw>(
-        &self,
-        system: &System<E, BeltContact<E, F>>,
-        motion: &Motion,
-        element_start: &[f64],
-    ) -> Vec<ProfileRow> {
-        let mesh = system.mesh();
-        let mut e = vec![0.0; E::DOF];
-        system
-            .law
-            .points(state(motion))
-            .into_iter()
-            .map(|point| {
-                mesh.gather(point.element, &motion.q, &mut e);
-                let element = &mesh.elements()[point.element];
-                let slope = element.slope(&e, point.xi);
-                let stretch = slope[0].hypot(slope[1]);
-                let mut row = ProfileRow {
-                    time: motion.time,
-                    material_coordinate: element_start[point.element] + point.xi * element.length(),
-                    x: point.position[0],
-                    y: point.position[1],
-                    z: 0.0,
-                    tension: element.axial_force(&e, point.xi),
-                    strain_green: 0.5 * (stretch * stretch - 1.0),
-                    strain_engineering: stretch - 1.0,
-                    strain_true: 1.0 - 1.0 / stretch,
-                    strain_almansi: 0.5 * (1.0 - 1.0 / (stretch * stretch)),
-                    jacobian: element.jacobian(&e, point.xi),
-                    speed: (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch,
-                    ..ProfileRow::default()
-                };
-                if let Some((p, contact)) = point.contact {
-                    row.normal_force = contact.normal_force;
-                    row.friction_force = contact.friction_force;
-                    row.slip_speed = contact.slip;
-                    row.pulley.clone_from(&self.names[p]);
-                }
-                row
-            })
-            .collect()
+    /// The belt at every contact integration point of the state surveyed last, in order of material
+    /// coordinate.
+    pub fn profile(&self, time: f64, element_start: &[f64]) -> Vec<ProfileRow> {
+        self.belt.profile(time, element_start, &self.names)
     }
 
-    /// Largest penetration of the state observed last [m].
+    /// Largest penetration of the state looked at last [m].
     pub fn penetration(&self) -> f64 {
         self.contacts
             .iter()
             .fold(0.0, |largest, c| f64::max(largest, c.penetration))
     }
 
-    /// Mean true axial force around the belt [N].
-    pub fn mean_tension<E: LineElement, F: FrictionLaw>(
-        &self,
-        system: &System<E, BeltContact<E, F>>,
-        motion: &Motion,
-    ) -> f64 {
-        let points = system.law.points(state(motion));
-        mean(system.mesh(), motion, &points, 0..points.len()).tension
+    /// Mean true axial force around the belt of the state surveyed last [N].
+    pub fn mean_tension(&self) -> f64 {
+        self.belt.mean_tension()
     }
 }
 
@@ -326,38 +257,5 @@ fn state(motion: &Motion) -> State<'_> {
         time: motion.time,
         q: &motion.q,
         v: &motion.v,
-    }
-}
-
-/// Means over a range of integration points (cyclic).
-fn mean<E: LineElement>(
-    mesh: &Mesh<E>,
-    motion: &Motion,
-    points: &[BeltPoint],
-    range: std::ops::Range<usize>,
-) -> SpanState {
-    let mut sum = SpanState::default();
-    let mut length = 0.0;
-    let mut e = vec![0.0; E::DOF];
-    let mut gathered = usize::MAX;
-    for i in range {
-        let point = &points[i % points.len()];
-        if point.element != gathered {
-            mesh.gather(point.element, &motion.q, &mut e);
-            gathered = point.element;
-        }
-        let element = &mesh.elements()[point.element];
-        let slope = element.slope(&e, point.xi);
-        let stretch = slope[0].hypot(slope[1]);
-        let along = (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch;
-        sum.tension += point.weight * element.axial_force(&e, point.xi);
-        sum.strain += point.weight * (stretch - 1.0);
-        sum.speed += point.weight * along;
-        length += point.weight;
-    }
-    SpanState {
-        tension: sum.tension / length,
-        strain: sum.strain / length,
-        speed: sum.speed / length,
     }
 }

@@ -11,7 +11,8 @@ use thiserror::Error;
 
 use super::stage::{NotConverged, Stage};
 use super::{GeneralizedAlpha, Motion, RungeKutta4, Scheme, Statistics, TrBdf2};
-use crate::system::Mechanics;
+use crate::norm::VectorNorm;
+use crate::system::{Mechanics, State};
 
 /// Damping at infinite frequency: more (0.6) costs energy balance, less (0.9) Newton iterations.
 const SPECTRAL_RADIUS: f64 = 0.8;
@@ -131,6 +132,8 @@ pub fn integrate<S: Mechanics>(
     motion.algorithmic.copy_from_slice(&motion.a);
     let mut next = motion.clone();
     let mut schemes = Schemes::new(control.method, size);
+    let positions = VectorNorm::of_positions(system);
+    let mut difference = vec![0.0; size];
 
     let mut boundaries: Vec<f64> = control
         .kinks
@@ -169,7 +172,8 @@ pub fn integrate<S: Mechanics>(
             }
             let mut may_double = true;
             if let Some(tolerance) = control.error_tolerance {
-                let error = prediction_error(system.scales(), motion, &next) / tolerance;
+                let error =
+                    prediction_error(&positions, motion, &next, &mut difference) / tolerance;
                 if error > 1.0 && grid.refine() {
                     stage.statistics.halved_steps += 1;
                     good = 0;
@@ -188,6 +192,11 @@ pub fn integrate<S: Mechanics>(
                     to: &next,
                 },
             );
+            system.accept(State {
+                time: next.time,
+                q: &next.q,
+                v: &next.v,
+            });
             std::mem::swap(motion, &mut next);
             if flow.is_break() {
                 return Ok(stage.statistics);
@@ -203,17 +212,14 @@ pub fn integrate<S: Mechanics>(
     Ok(stage.statistics)
 }
 
-/// Largest difference [m/s] between the velocities found and those predicted by constant
-/// acceleration, over the coordinates in metres (positions of nodes).
-fn prediction_error(scales: &[f64], from: &Motion, to: &Motion) -> f64 {
+/// Largest difference [m/s] between the velocities of nodes found and those predicted by constant
+/// acceleration.
+fn prediction_error(norm: &VectorNorm, from: &Motion, to: &Motion, difference: &mut [f64]) -> f64 {
     let h = to.time - from.time;
-    let mut largest: f64 = 0.0;
-    for (i, scale) in scales.iter().enumerate() {
-        if (*scale - 1.0).abs() < f64::EPSILON {
-            largest = largest.max((to.v[i] - from.v[i] - h * from.a[i]).abs());
-        }
+    for (i, value) in difference.iter_mut().enumerate() {
+        *value = to.v[i] - from.v[i] - h * from.a[i];
     }
-    largest
+    norm.largest(difference).0
 }
 
 /// The scheme in use and its stand-in.

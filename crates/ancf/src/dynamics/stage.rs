@@ -9,14 +9,18 @@
 //!   is renewed at `x`, and if it is fresh already, `s` is halved;
 //! * a contraction above [`SLOW`] renews the tangent at the new point.
 //!
-//! An unconverged iterate is never accepted. Norms weigh each coordinate by its scale in metres and
-//! are velocities: `|b| = max_i g_v scale_i |b_i|`.
+//! * with the contraction `c` of the last trial, `c / (1 - c) |b|` bounds what is left after the last
+//!   correction: below the tolerance the stage is done.
+//!
+//! An unconverged iterate is never accepted. Norms are velocities: the longest vector of a node or the
+//! largest rigid coordinate, weighed by its scale in metres, `|b| = max_i g_v scale_i |b_i|`.
 
 use thiserror::Error;
 
 use super::{Motion, Statistics};
 use crate::constraint::ConstraintSet;
 use crate::linear::{BorderedMatrix, CompressedRows, CyclicSolver, Solver};
+use crate::norm::VectorNorm;
 use crate::system::{Mechanics, State};
 
 /// Trials before a stage is given up.
@@ -83,7 +87,7 @@ pub struct Stage {
     base_q: Vec<f64>,
     base_v: Vec<f64>,
     fixed: Vec<bool>,
-    weights: Vec<f64>,
+    norm: VectorNorm,
     /// Counters since the start.
     pub statistics: Statistics,
 }
@@ -116,7 +120,7 @@ impl Stage {
             base_q: vec![0.0; size],
             base_v: vec![0.0; size],
             fixed,
-            weights: system.scales().to_vec(),
+            norm: VectorNorm::new(system),
             statistics: Statistics::default(),
         }
     }
@@ -201,7 +205,8 @@ impl Stage {
                 std::mem::swap(&mut self.residual, &mut self.trial_residual);
                 std::mem::swap(&mut self.correction, &mut self.trial_correction);
                 (size, largest) = (trial_size, trial_largest);
-                if damping >= 1.0 && size / (1.0 - contraction) < self.tolerance {
+                let left = contraction / (1.0 - contraction) * size;
+                if damping >= 1.0 && left < self.tolerance {
                     self.apply(system, motion, base);
                     return Ok(());
                 }
@@ -335,18 +340,10 @@ impl Stage {
         }
     }
 
-    /// Largest weighted entry of a correction [m/s] and where it is; NaN counts as infinite.
+    /// Largest weighted vector of a correction [m/s] and where it is; NaN counts as infinite.
     fn norm(&self, correction: &[f64], velocity_factor: f64) -> (f64, usize) {
-        let mut largest = (0.0, 0);
-        for (i, (b, weight)) in correction.iter().zip(&self.weights).enumerate() {
-            let value = (b * weight).abs();
-            if value > largest.0 {
-                largest = (value, i);
-            } else if value.is_nan() {
-                return (f64::INFINITY, i);
-            }
-        }
-        (largest.0 * velocity_factor, largest.1)
+        let (size, place) = self.norm.largest(correction);
+        (size * velocity_factor, place)
     }
 }
 

@@ -364,6 +364,7 @@ impl Element for BeltBeam2 {
 
 impl LineElement for BeltBeam2 {
     const CENTRE_VECTORS: &'static [usize] = &hermite::VECTORS;
+    const SECTION_VECTORS: [usize; 2] = [2, 5];
 
     fn length(&self) -> f64 {
         self.length

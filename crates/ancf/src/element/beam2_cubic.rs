@@ -344,6 +344,7 @@ impl Element for CubicBeam2 {
 
 impl LineElement for CubicBeam2 {
     const CENTRE_VECTORS: &'static [usize] = &hermite::VECTORS;
+    const SECTION_VECTORS: [usize; 2] = [2, 5];
 
     /// The range of the parameter x: the length of a straight beam.
     fn length(&self) -> f64 {

@@ -154,6 +154,7 @@ impl Element for LinearBeam2 {
 
 impl LineElement for LinearBeam2 {
     const CENTRE_VECTORS: &'static [usize] = &[0, 2];
+    const SECTION_VECTORS: [usize; 2] = [1, 3];
 
     fn length(&self) -> f64 {
         self.length

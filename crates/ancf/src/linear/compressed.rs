@@ -36,6 +36,17 @@ impl CompressedRows {
         Self { starts, entries }
     }
 
+    /// The quadratic form `x . A x`.
+    pub fn quadratic(&self, x: &[f64]) -> f64 {
+        x.iter()
+            .zip(self.starts.windows(2))
+            .map(|(value, range)| {
+                let row = &self.entries[range[0]..range[1]];
+                value * row.iter().map(|(column, a)| a * x[*column]).sum::<f64>()
+            })
+            .sum()
+    }
+
     /// Writes the product with `x` to `y`; both have as many entries as the matrix has rows.
     pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
         for (value, range) in y.iter_mut().zip(self.starts.windows(2)) {

@@ -21,6 +21,9 @@
 //! assert_eq!(numbers[7], 64.0);
 //! ```
 
+#[cfg(target_arch = "x86_64")]
+mod called;
+
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use pulp::Simd;
@@ -63,8 +66,15 @@ pub fn dispatch<K: LaneKernel>(kernel: K) -> K::Output {
             );
         }
     }
-    kernel.run::<Lanes<8>>()
+    kernel.run::<Fallback>()
 }
+
+/// For processors without the registers above. Where these are only the oldest of their kind, kernels
+/// call its operations instead of unrolling all lanes, which would double the time to compile them.
+#[cfg(target_arch = "x86_64")]
+type Fallback = called::Called;
+#[cfg(not(target_arch = "x86_64"))]
+type Fallback = Lanes<8>;
 
 impl EightLanes for Lanes<8> {
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! What `hihna steady` found, as `--json` prints it and `summary.json` holds it.
 
-use hihna::drive::{Drive, Friction};
+use hihna::drive::Drive;
 use hihna::steady::drive_string::{DriveString, PulleySummary, SpanSummary, SteadyError};
 use hihna::steady::string::{Answer, Capacity, GrossSlip, Role, Running, Tightness};
 use hihna::summary::Named;
@@ -168,13 +168,11 @@ impl ModelSummary {
             Tightness::UnstretchedLength(length) => (length, stiffness * (path / length - 1.0)),
             Tightness::InitialTension(tension) => (path / (1.0 + tension / stiffness), tension),
         };
-        let (Friction::CreepRate { coefficient, .. } | Friction::Coulomb { coefficient, .. }) =
-            drive.contact.friction;
         Self {
             theory: "string",
             inertia: arguments.model,
             closure: arguments.closure,
-            friction_coefficient: coefficient,
+            friction_coefficient: drive.contact.friction.coefficient(),
             axial_stiffness: stiffness,
             line_density: string.string.line_density,
             path_length: path,

@@ -7,7 +7,7 @@ use hihna::drive::{Drive, Friction};
 
 use super::ClosureName;
 use super::summary::{ModelSummary, Steady, Summary};
-use crate::quantities::{percent, plain, with_prefix};
+use crate::quantities::{degrees, percent, plain, with_prefix};
 use crate::tables::columns;
 
 /// Radians per second of one turn per minute.
@@ -89,6 +89,8 @@ impl ModelSummary {
         let unused = match drive.contact.friction {
             Friction::CreepRate { .. } => "the slope of law `creep-rate`",
             Friction::Coulomb { .. } => "the velocity of law `coulomb`",
+            Friction::Stribeck { .. } => "the static coefficient and velocities of law `stribeck`",
+            Friction::ElasticPlastic { .. } => "the bristles of law `elastic-plastic`",
         };
         let mut text = String::new();
         // Writing to a string cannot fail.
@@ -169,10 +171,4 @@ impl Steady {
         let _ = writeln!(text, "Efficiency: {efficiency}");
         text
     }
-}
-
-/// `93.94°` of 1.6396 rad.
-fn degrees(angle: f64) -> String {
-    // Without the sign of a negative zero.
-    format!("{:.2}°", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0)
 }

@@ -45,7 +45,7 @@ pub struct DriveString {
 impl DriveString {
     /// Makes a drive ready.
     pub fn new(drive: &Drive, model: Model, closure: Closure) -> Result<Self, SteadyError> {
-        let layout = Layout::new(&drive.pulley)?;
+        let layout = Layout::of(drive)?;
         let numbers = DriveNumbers::new(drive)?;
         let direction =
             numbers.driving_speed().signum() * layout.arcs[numbers.driver].sweep.signum();
@@ -204,6 +204,11 @@ impl DriveString {
 fn speed_controlled(pulleys: &[Pulley]) -> Result<(usize, f64), SteadyError> {
     if let Some(pulley) = pulleys.iter().find(|pulley| pulley.angle.is_some()) {
         return Err(SteadyError::AngleDriven {
+            pulley: pulley.name.clone(),
+        });
+    }
+    if let Some(pulley) = pulleys.iter().find(|pulley| pulley.load.is_some()) {
+        return Err(SteadyError::SpeedDependent {
             pulley: pulley.name.clone(),
         });
     }

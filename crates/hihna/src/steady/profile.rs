@@ -176,6 +176,7 @@ impl Rows<'_> {
             y: point.position[1],
             z: 0.0,
             tension: state.tension,
+            element_tension: state.tension,
             strain_green: state.strain * (1.0 + 0.5 * state.strain),
             strain_engineering: state.strain,
             strain_true: state.strain / stretch,

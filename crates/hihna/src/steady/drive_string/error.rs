@@ -52,6 +52,14 @@ pub enum SteadyError {
         /// The final value [rad/s].
         speed: f64,
     },
+    /// A load depends on the speed.
+    #[error(
+        "the `load` of pulley \"{pulley}\" depends on its speed: the string theory takes a constant `torque`"
+    )]
+    SpeedDependent {
+        /// Name of the pulley.
+        pulley: String,
+    },
     /// The belt's length is not given.
     #[error("the belt has none of `length`, `tension`, `strain`: give one")]
     NoTightness,
@@ -98,6 +106,10 @@ impl SteadyError {
             Self::SpeedAndTorque { pulley, .. } => (
                 of_pulley(pulley).field("torque"),
                 "the torque that keeps the speed is a result",
+            ),
+            Self::SpeedDependent { pulley } => (
+                of_pulley(pulley).field("load"),
+                "give the `torque` at the speed at which the pulley will run; `hihna run` takes the load",
             ),
             Self::AngleDriven { pulley } => (
                 of_pulley(pulley).field("angle"),

@@ -6,7 +6,7 @@
 //! wrap angles and spans by the common tangents of the layout. With dual numbers all of it carries
 //! its derivatives by the fields of the drive file.
 
-use crate::drive::{Drive, Friction};
+use crate::drive::{Drive, Friction, Surface, Wrap};
 use crate::layout::{Circle, Layout, Tangent, sweep, turn};
 use crate::number::Number;
 use crate::steady::string::{Closure, Model, Role, StringDrive, StringPulley, Tightness};
@@ -25,6 +25,10 @@ pub(super) struct DriveNumbers<D = f64> {
     axial_factor: D,
     tightness: Given<D>,
     friction: D,
+    friction_field: &'static str,
+    back_friction: Option<(D, &'static str)>,
+    /// Distance of the centre line from the pulleys' surfaces, in thicknesses.
+    pitch: f64,
     pulleys: Vec<PulleyNumbers<D>>,
 }
 
@@ -40,6 +44,9 @@ enum Given<D> {
 struct PulleyNumbers<D> {
     center: [D; 2],
     radius: D,
+    /// Whether the belt's back touches it.
+    back: bool,
+    groove_angle: Option<D>,
     /// Final speed of the speed-controlled pulley [rad/s], final torque of another [N m], both
     /// counter-clockwise.
     motion: D,
@@ -59,14 +66,7 @@ impl DriveNumbers {
     pub fn new(drive: &Drive) -> Result<Self, SteadyError> {
         let (driver, speed) = speed_controlled(&drive.pulley)?;
         let belt = &drive.belt;
-        let (Friction::CreepRate {
-            coefficient: friction,
-            ..
-        }
-        | Friction::Coulomb {
-            coefficient: friction,
-            ..
-        }) = drive.contact.friction;
+        let contact = &drive.contact;
         let pulleys = drive
             .pulley
             .iter()
@@ -74,6 +74,8 @@ impl DriveNumbers {
             .map(|(i, pulley)| PulleyNumbers {
                 center: pulley.center,
                 radius: pulley.radius,
+                back: contact.back_friction.is_some() && pulley.wrap == Wrap::Outside,
+                groove_angle: pulley.groove_angle,
                 motion: if i == driver {
                     speed
                 } else {
@@ -93,7 +95,16 @@ impl DriveNumbers {
                 (.., Some(strain)) => Given::Strain(strain),
                 _ => return Err(SteadyError::NoTightness),
             },
-            friction,
+            friction: contact.friction.coefficient(),
+            friction_field: coefficient_field(&contact.friction),
+            back_friction: contact
+                .back_friction
+                .as_ref()
+                .map(|law| (law.coefficient(), coefficient_field(law))),
+            pitch: match contact.surface {
+                Surface::CentreLine => 0.0,
+                Surface::Face => 0.5,
+            },
             pulleys: pulleys.collect(),
         })
     }
@@ -105,12 +116,29 @@ impl DriveNumbers {
 }
 
 impl<D: Number> DriveNumbers<D> {
+    /// Distance of the belt's centre line from the pulley's axis.
+    fn pitch_radius(&self, pulley: &PulleyNumbers<D>) -> D {
+        pulley.radius + self.thickness * self.pitch
+    }
+
+    /// Coefficient of friction on a pulley, its groove taken in.
+    fn coefficient(&self, pulley: &PulleyNumbers<D>) -> D {
+        let flat = match self.back_friction {
+            Some((back, _)) if pulley.back => back,
+            _ => self.friction,
+        };
+        match pulley.groove_angle {
+            Some(angle) => flat / (angle * 0.5).sin(),
+            None => flat,
+        }
+    }
+
     /// The path, on the sides of the pulleys where `layout` has it.
     pub fn path(&self, layout: &Layout) -> Path<D> {
         let count = self.pulleys.len();
         let circle = |(pulley, arc): (&PulleyNumbers<D>, &crate::layout::Arc)| Circle {
             center: pulley.center,
-            radius: pulley.radius,
+            radius: self.pitch_radius(pulley),
             side: arc.sweep.signum(),
         };
         let circles: Vec<_> = self.pulleys.iter().zip(&layout.arcs).map(circle).collect();
@@ -144,9 +172,9 @@ impl<D: Number> DriveNumbers<D> {
             let rotation = direction * layout.arcs[i].sweep.signum();
             let motion = self.pulleys[i].motion * rotation;
             StringPulley {
-                radius: self.pulleys[i].radius,
+                radius: self.pitch_radius(&self.pulleys[i]),
                 wrap_angle: path.wraps[i],
-                friction: self.friction,
+                friction: self.coefficient(&self.pulleys[i]),
                 role: if i == self.driver {
                     Role::SpeedControlled(motion)
                 } else {
@@ -184,12 +212,19 @@ impl<D: Number> DriveNumbers<D> {
                 Given::Strain(strain) => Given::Strain(convert(strain)),
             },
             friction: convert(self.friction),
+            friction_field: self.friction_field,
+            back_friction: self
+                .back_friction
+                .map(|(value, field)| (convert(value), field)),
+            pitch: self.pitch,
             pulleys: self
                 .pulleys
                 .iter()
                 .map(|pulley| PulleyNumbers {
                     center: pulley.center.map(&convert),
                     radius: convert(pulley.radius),
+                    back: pulley.back,
+                    groove_angle: pulley.groove_angle.map(&convert),
                     motion: convert(pulley.motion),
                 })
                 .collect(),
@@ -220,12 +255,18 @@ impl<D: Number> DriveNumbers<D> {
                 &mut self.axial_factor,
             ),
             (
-                Field::Whole("contact.friction", "coefficient"),
+                Field::Whole("contact.friction", self.friction_field),
                 "-",
                 &mut self.friction,
             ),
         ];
+        if let Some((value, field)) = &mut self.back_friction {
+            fields.push((Field::Whole("contact.back_friction", field), "-", value));
+        }
         for (i, pulley) in self.pulleys.iter_mut().enumerate() {
+            if let Some(angle) = &mut pulley.groove_angle {
+                fields.push((Field::Pulley(i, "groove_angle"), "rad", angle));
+            }
             let [x, y] = &mut pulley.center;
             let (motion, unit) = if i == self.driver {
                 ("speed", "rad/s")
@@ -240,6 +281,14 @@ impl<D: Number> DriveNumbers<D> {
             ]);
         }
         fields
+    }
+}
+
+/// The field of a friction law that the string theory reads.
+fn coefficient_field(friction: &Friction) -> &'static str {
+    match friction {
+        Friction::Stribeck { .. } => "sliding_coefficient",
+        _ => "coefficient",
     }
 }
 

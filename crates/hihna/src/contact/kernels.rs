@@ -1,0 +1,346 @@
+//! The loops over batches of contact points, compiled for SIMD registers.
+
+use ancf::linear::BorderedMatrix;
+use ancf::scalar::{EightLanes, LaneKernel};
+use ancf::system::State;
+
+use super::memory::Bristles;
+use super::point::{Meeting, PointContact};
+use super::table::{BatchTable, LANES, MAX_VECTORS};
+use super::{BeltContact, PulleyContact};
+use crate::friction::FrictionLaw;
+
+/// A batch of points of one element facing one pulley.
+struct Batch<'a, S> {
+    element: usize,
+    /// Index among all batches of the belt.
+    index: usize,
+    pulley: usize,
+    speed: f64,
+    /// First coordinate of each vector of the contact line.
+    at: &'a [usize; MAX_VECTORS],
+    table: &'a BatchTable,
+    contact: PointContact<S>,
+}
+
+impl<S: EightLanes> Batch<'_, S> {
+    #[inline(always)]
+    fn weight(&self) -> S {
+        S::load(&self.table.weight)
+    }
+}
+
+/// Runs `work` for every batch of points of an element that may touch a pulley.
+#[inline(always)]
+fn for_contacts<S: EightLanes>(
+    contact: &BeltContact,
+    state: State<'_>,
+    mut work: impl FnMut(&Batch<'_, S>),
+) {
+    let count = contact.line.vectors.len();
+    let rotors = contact.rotors();
+    let batches = contact.batches();
+    for element in 0..contact.kind_of.len() {
+        let mut at = [0; MAX_VECTORS];
+        let mut position = [[0.0; 2]; MAX_VECTORS];
+        for (slot, vector) in contact.line.vectors.iter().enumerate() {
+            at[slot] = contact.coordinate(element, *vector);
+            position[slot] = [state.q[at[slot]], state.q[at[slot] + 1]];
+        }
+        let (middle, reach) = contact.hull(element, &position);
+        for (p, pulley) in contact.pulleys.iter().enumerate() {
+            let table = contact.table(element, contact.line_of[p]);
+            let (dx, dy) = (middle[0] - pulley.center[0], middle[1] - pulley.center[1]);
+            let limit = pulley.radius + reach;
+            if dx * dx + dy * dy >= limit * limit {
+                continue;
+            }
+            let speed = state.v[rotors + p];
+            for (k, table) in table.batches.iter().enumerate() {
+                let mut r = [S::zero(); 2];
+                let mut v = [S::zero(); 2];
+                for slot in 0..count {
+                    let shape = S::load(&table.shape[slot]);
+                    for axis in 0..2 {
+                        r[axis] += shape * position[slot][axis];
+                        v[axis] += shape * state.v[at[slot] + axis];
+                    }
+                }
+                let index = element * batches + k;
+                let anchor = contact
+                    .bristles
+                    .get(index)
+                    .filter(|_| pulley.friction.has_memory())
+                    .map(|bristles| turned(bristles, p, state.q[rotors + p]));
+                let meeting = Meeting {
+                    r,
+                    v,
+                    speed,
+                    anchor,
+                };
+                work(&Batch {
+                    element,
+                    index,
+                    pulley: p,
+                    speed,
+                    at: &at,
+                    table,
+                    contact: PointContact::new(&contact.penalty, pulley, &meeting),
+                });
+            }
+        }
+    }
+}
+
+/// Where the bristles of a batch stand on `pulley` in global axes; zero for points without one.
+#[inline(always)]
+fn turned<S: EightLanes>(bristles: &Bristles, pulley: usize, angle: f64) -> [S; 2] {
+    let (s, c) = angle.sin_cos();
+    let stands = S::load(&bristles.stands_on(pulley));
+    let (x, y) = (S::load(&bristles.x) * stands, S::load(&bristles.y) * stands);
+    [x * c - y * s, x * s + y * c]
+}
+
+/// The sum over the lanes.
+#[inline(always)]
+fn sum<S: EightLanes>(x: S) -> f64 {
+    let [a, b, c, d, e, f, g, h] = x.store();
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
+}
+
+/// Turns values by kind and lane into values by lane and kind.
+#[inline(always)]
+fn by_lane<S: EightLanes, const N: usize>(values: [S; N]) -> [[f64; N]; LANES] {
+    let mut out = [[0.0; N]; LANES];
+    for i in 0..N {
+        let stored = values[i].store();
+        for lane in 0..LANES {
+            out[lane][i] = stored[lane];
+        }
+    }
+    out
+}
+
+/// `sum over lanes of factor[lane] * values[lane]`.
+#[inline(always)]
+fn contract<const N: usize>(factor: &[f64; LANES], values: &[[f64; N]; LANES]) -> [f64; N] {
+    let mut out = [0.0; N];
+    for lane in 0..LANES {
+        for i in 0..N {
+            out[i] += factor[lane] * values[lane][i];
+        }
+    }
+    out
+}
+
+/// The work of [`BeltContact::resultants`].
+pub(super) struct Resultants<'a> {
+    pub contact: &'a BeltContact,
+    pub state: State<'a>,
+    pub out: &'a mut [PulleyContact],
+}
+
+impl LaneKernel for Resultants<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        let (this, out) = (self.contact, self.out);
+        for_contacts::<S>(
+            this,
+            self.state,
+            #[inline(always)]
+            |batch| {
+                let radius = this.pulleys[batch.pulley].radius;
+                let contact = &batch.contact;
+                let weight = contact
+                    .penetration
+                    .select_positive(batch.weight(), S::zero());
+                let total = &mut out[batch.pulley];
+                let force = contact.force();
+                total.torque += sum(contact.torque(radius) * weight);
+                total.hub_force[0] -= sum(force[0] * weight);
+                total.hub_force[1] -= sum(force[1] * weight);
+                total.length += sum(weight);
+                total.slip_speed += sum(contact.slip * weight);
+                total.friction_loss += sum(contact.friction_loss(radius, batch.speed) * weight);
+                let elastic = contact.penetration * this.penalty.stiffness;
+                total.contact_loss += sum((contact.normal_force - elastic) * contact.rate * weight);
+                total.stored_energy += sum(elastic * contact.penetration * 0.5 * weight);
+                let deepest = weight.select_positive(contact.penetration, S::zero());
+                for penetration in deepest.store() {
+                    total.penetration = total.penetration.max(penetration);
+                }
+            },
+        );
+    }
+}
+
+/// The work of `add_force`.
+pub(super) struct AddForce<'a> {
+    pub contact: &'a BeltContact,
+    pub state: State<'a>,
+    pub force: &'a mut [f64],
+}
+
+impl LaneKernel for AddForce<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        let (this, force) = (self.contact, self.force);
+        let rotors = this.rotors();
+        let count = this.line.vectors.len();
+        for_contacts::<S>(
+            this,
+            self.state,
+            #[inline(always)]
+            |batch| {
+                let weight = batch.weight();
+                let f = batch.contact.force();
+                let torque = batch.contact.torque(this.pulleys[batch.pulley].radius);
+                force[rotors + batch.pulley] += sum(torque * weight);
+                let x = contract(&(f[0] * weight).store(), &batch.table.by_lane);
+                let y = contract(&(f[1] * weight).store(), &batch.table.by_lane);
+                for slot in 0..count {
+                    force[batch.at[slot]] += x[slot];
+                    force[batch.at[slot] + 1] += y[slot];
+                }
+            },
+        );
+    }
+}
+
+/// The work of `add_tangent`.
+pub(super) struct AddTangent<'a> {
+    pub contact: &'a BeltContact,
+    pub state: State<'a>,
+    pub position_factor: f64,
+    pub velocity_factor: f64,
+    /// Element matrix.
+    pub local: &'a mut [f64],
+    pub matrix: &'a mut BorderedMatrix,
+}
+
+impl LaneKernel for AddTangent<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        let Self {
+            contact: this,
+            state,
+            position_factor,
+            velocity_factor,
+            local,
+            matrix,
+        } = self;
+        let dof = 2 * this.node_dof;
+        let vectors = &this.line.vectors;
+        for_contacts::<S>(
+            this,
+            state,
+            #[inline(always)]
+            |batch| {
+                if batch.contact.penetration.store().iter().all(|d| *d <= 0.0) {
+                    return;
+                }
+                let weight = batch.weight();
+                let radius = this.pulleys[batch.pulley].radius;
+                let tangent = batch
+                    .contact
+                    .tangent(radius, position_factor, velocity_factor);
+                let blocks = by_lane(tangent.force.map(
+                    #[inline(always)]
+                    |x| x * weight,
+                ));
+                let [fx, fy] = tangent.force_by_pulley;
+                let [tx, ty] = tangent.torque;
+                let border = by_lane([fx, fy, tx, ty].map(
+                    #[inline(always)]
+                    |x| x * weight,
+                ));
+                local.fill(0.0);
+                let mut pair = 0;
+                for (a, row) in vectors.iter().enumerate() {
+                    for column in &vectors[a..] {
+                        let block = contract(&batch.table.products[pair], &blocks);
+                        pair += 1;
+                        for (row, column) in [(row, column), (column, row)] {
+                            let at = 2 * row * dof + 2 * column;
+                            local[at] = block[0];
+                            local[at + 1] = block[1];
+                            local[at + dof] = block[2];
+                            local[at + dof + 1] = block[3];
+                        }
+                    }
+                    let [fx, fy, tx, ty] = contract(&batch.table.shape[a], &border);
+                    matrix.add_border_column(batch.pulley, batch.at[a], &[fx, fy]);
+                    matrix.add_border_row(batch.pulley, batch.at[a], &[tx, ty]);
+                }
+                matrix.add_pair(batch.element, 1.0, local);
+                matrix.add_corner(
+                    batch.pulley,
+                    batch.pulley,
+                    sum(tangent.torque_by_pulley * weight),
+                );
+            },
+        );
+    }
+}
+
+/// The work of `accept`: points in contact keep or get a bristle, bent no further than it sticks.
+pub(super) struct Accept<'a> {
+    pub contact: &'a BeltContact,
+    pub state: State<'a>,
+    pub next: &'a mut [Bristles],
+}
+
+impl LaneKernel for Accept<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) {
+        let (this, next) = (self.contact, self.next);
+        let rotors = this.rotors();
+        for_contacts::<S>(
+            this,
+            self.state,
+            #[inline(always)]
+            |batch| {
+                let pulley = &this.pulleys[batch.pulley];
+                let (s, c) = self.state.q[rotors + batch.pulley].sin_cos();
+                let contact = &batch.contact;
+                let [n0, n1] = contact.normal.map(S::store);
+                let penetration = contact.penetration.store();
+                let displacement = contact.displacement.store();
+                let normal_force = contact.normal_force.store();
+                let old = &this.bristles[batch.index];
+                let stands = old.stands_on(batch.pulley);
+                let new = &mut next[batch.index];
+                for lane in 0..LANES {
+                    let Some(limit) = pulley.friction.elastic_limit(normal_force[lane].abs())
+                    else {
+                        continue;
+                    };
+                    if penetration[lane] <= 0.0 {
+                        continue;
+                    }
+                    new.pulley[lane] = (batch.pulley + 1) as f64;
+                    if stands[lane] > 0.0 && displacement[lane].abs() <= limit {
+                        (new.x[lane], new.y[lane]) = (old.x[lane], old.y[lane]);
+                        continue;
+                    }
+                    // sin of the angle by which the bristle lags the point
+                    let bent = displacement[lane].clamp(-limit, limit) / pulley.radius;
+                    let level = (1.0 - bent * bent).max(0.0).sqrt();
+                    let (x, y) = (
+                        n0[lane] * level + n1[lane] * bent,
+                        n1[lane] * level - n0[lane] * bent,
+                    );
+                    (new.x[lane], new.y[lane]) = (c * x + s * y, c * y - s * x);
+                }
+            },
+        );
+    }
+}

@@ -1,0 +1,130 @@
+//! Shape functions of the belt's contact line at the integration points of an element.
+
+use ancf::element::LineElement;
+use ancf::quadrature::Rule;
+
+/// Integration points computed side by side.
+pub(super) const LANES: usize = 8;
+/// Most vectors that a contact line reads: four of a cubic centre line, two across the section.
+pub(super) const MAX_VECTORS: usize = 6;
+
+/// Which vectors of an element the contact line reads: those of the centre line first, then, for a line
+/// on a face of the belt, the slopes across the section at both nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    /// Local vectors in the order of the slots.
+    pub vectors: Vec<usize>,
+    /// How many of them belong to the centre line: two for a straight one, four for a cubic.
+    pub centre: usize,
+}
+
+impl Line {
+    /// The line that elements `E` make at height `y` over their centre line.
+    pub fn new<E: LineElement>(y: f64) -> Self {
+        let mut vectors = E::CENTRE_VECTORS.to_vec();
+        if y != 0.0 {
+            vectors.extend(E::SECTION_VECTORS);
+        }
+        Self {
+            vectors,
+            centre: E::CENTRE_VECTORS.len(),
+        }
+    }
+}
+
+/// Shape functions at the points of one kind of element, at one height over the centre line.
+#[derive(Clone, Debug)]
+pub(super) struct Table {
+    pub batches: Vec<BatchTable>,
+    /// Undeformed length of the element [m].
+    length: f64,
+}
+
+/// Up to eight points. Lanes without a point repeat the last one with weight zero.
+#[derive(Clone, Debug)]
+pub(super) struct BatchTable {
+    /// By slot, by lane.
+    pub shape: [[f64; LANES]; MAX_VECTORS],
+    /// The same by lane, by slot, padded with zeros.
+    pub by_lane: [[f64; LANES]; LANES],
+    /// Quadrature weight times length [m], by lane.
+    pub weight: [f64; LANES],
+    /// Products of the shape functions of slots `a <= b`, by lane: `(0, 0), (0, 1), ..., (1, 1), ...`.
+    pub products: Vec<[f64; LANES]>,
+}
+
+impl Table {
+    pub fn new<E: LineElement>(element: &E, line: &Line, rule: &Rule, height: f64) -> Self {
+        let count = line.vectors.len();
+        let zero = [0.0; LANES];
+        let mut weights = vec![0.0; E::NODES * E::NODE_VECTORS];
+        let batches = (0..rule.points.len().div_ceil(LANES))
+            .map(|batch| {
+                let mut table = BatchTable {
+                    shape: [zero; MAX_VECTORS],
+                    by_lane: [zero; LANES],
+                    weight: zero,
+                    products: Vec::new(),
+                };
+                for lane in 0..LANES {
+                    let k = batch * LANES + lane;
+                    let xi = rule.points[k.min(rule.points.len() - 1)];
+                    element.centre_line(xi, &mut weights);
+                    if height != 0.0 {
+                        let [first, second] = E::SECTION_VECTORS;
+                        weights[first] += height * (1.0 - xi);
+                        weights[second] += height * xi;
+                    }
+                    for (slot, vector) in line.vectors.iter().enumerate() {
+                        table.shape[slot][lane] = weights[*vector];
+                        table.by_lane[lane][slot] = weights[*vector];
+                    }
+                    if k < rule.points.len() {
+                        table.weight[lane] = rule.weights[k] * element.length();
+                    }
+                }
+                for a in 0..count {
+                    for b in a..count {
+                        table.products.push(std::array::from_fn(|lane| {
+                            table.shape[a][lane] * table.shape[b][lane]
+                        }));
+                    }
+                }
+                table
+            })
+            .collect();
+        Self {
+            batches,
+            length: element.length(),
+        }
+    }
+
+    /// Centre and radius of a disc that holds all points up to `height` beside the centre line: the hull
+    /// of its Bézier points for a cubic (r1, r1_x, r2, r2_x), of its ends for a straight one, widened.
+    #[inline(always)]
+    pub fn hull(
+        &self,
+        line: &Line,
+        height: f64,
+        vectors: &[[f64; 2]; MAX_VECTORS],
+    ) -> ([f64; 2], f64) {
+        let cubic = line.centre == 4;
+        let (first, last) = (vectors[0], vectors[if cubic { 2 } else { 1 }]);
+        let middle = [0.5 * (first[0] + last[0]), 0.5 * (first[1] + last[1])];
+        let square = |x: f64, y: f64| (x - middle[0]).powi(2) + (y - middle[1]).powi(2);
+        let mut reach = square(first[0], first[1]);
+        if cubic {
+            let third = self.length / 3.0;
+            let (a, b) = (vectors[1], vectors[3]);
+            reach = reach
+                .max(square(first[0] + third * a[0], first[1] + third * a[1]))
+                .max(square(last[0] - third * b[0], last[1] - third * b[1]));
+        }
+        let mut reach = reach.sqrt();
+        if height > 0.0 {
+            let across = |v: [f64; 2]| (v[0] * v[0] + v[1] * v[1]).sqrt();
+            reach += height * across(vectors[line.centre]).max(across(vectors[line.centre + 1]));
+        }
+        (middle, reach)
+    }
+}

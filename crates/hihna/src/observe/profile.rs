@@ -1,0 +1,66 @@
+//! The belt point by point, as `profile.csv` has it.
+
+use super::belt::BeltSurvey;
+
+/// One row of the belt's profile; fields as in `profile.csv`, SI units.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[expect(
+    missing_docs,
+    reason = "columns of profile.csv, described in the user guide"
+)]
+pub struct ProfileRow {
+    pub time: f64,
+    pub material_coordinate: f64,
+    pub x: f64,
+    pub y: f64,
+    pub z: f64,
+    pub tension: f64,
+    pub element_tension: f64,
+    pub strain_green: f64,
+    pub strain_engineering: f64,
+    pub strain_true: f64,
+    pub strain_almansi: f64,
+    pub jacobian: f64,
+    pub speed: f64,
+    pub normal_force: f64,
+    pub friction_force: f64,
+    pub slip_speed: f64,
+    pub pulley: String,
+}
+
+impl BeltSurvey {
+    /// Every integration point, in order of material coordinate.
+    pub fn profile(&self, time: f64, element_start: &[f64], names: &[String]) -> Vec<ProfileRow> {
+        self.points
+            .iter()
+            .zip(&self.samples)
+            .map(|(point, sample)| {
+                let stretch = sample.stretch;
+                let mut row = ProfileRow {
+                    time,
+                    material_coordinate: element_start[point.element]
+                        + point.xi * self.element_length[point.element],
+                    x: point.position[0],
+                    y: point.position[1],
+                    z: 0.0,
+                    tension: sample.tension,
+                    element_tension: self.element_tension[point.element],
+                    strain_green: 0.5 * (stretch * stretch - 1.0),
+                    strain_engineering: stretch - 1.0,
+                    strain_true: 1.0 - 1.0 / stretch,
+                    strain_almansi: 0.5 * (1.0 - 1.0 / (stretch * stretch)),
+                    jacobian: sample.jacobian,
+                    speed: sample.speed,
+                    ..ProfileRow::default()
+                };
+                if let Some((p, contact)) = point.contact {
+                    row.normal_force = contact.normal_force;
+                    row.friction_force = contact.friction_force;
+                    row.slip_speed = contact.slip;
+                    row.pulley.clone_from(&names[p]);
+                }
+                row
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,236 @@
+//! Records of a run: rows of the history, profiles of the belt, and the balances.
+
+use std::time::Duration;
+
+use ancf::dynamics::{Motion, Window};
+use ancf::statics::Settled;
+use ancf::system::Mechanics;
+
+use super::{Audit, StartState};
+use crate::assemble::{Assembly, BeltElementType};
+use crate::drive::Drive;
+use crate::history::History;
+use crate::layout::Layout;
+use crate::observe::{BeltSystem, Observer, Powers, ProfileRow, PulleyState, SpanState, Stored};
+
+/// Collects history, profile and balances while the run goes on.
+pub(super) struct Recorder {
+    observer: Observer,
+    layout: Layout,
+    element_start: Vec<f64>,
+    pulleys: Vec<PulleyState>,
+    spans: Vec<SpanState>,
+    pub history: History,
+    pub profile: Vec<ProfileRow>,
+    /// CPU time that rows and profiles took.
+    pub recording: Duration,
+    state: Motion,
+    output_times: Vec<f64>,
+    next_output: usize,
+    profile_times: Vec<f64>,
+    next_profile: usize,
+    initial: Stored,
+    /// Powers at the last accepted state and work since the start.
+    powers: Powers,
+    work: Powers,
+    turnover: f64,
+    largest_residual: f64,
+    /// For each pulley: torque last, its integral, the integral of its magnitude, first speed, now.
+    momenta: Vec<Momentum>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Momentum {
+    torque: f64,
+    impulse: f64,
+    moved: f64,
+    first_speed: f64,
+    speed: f64,
+}
+
+impl Recorder {
+    pub fn new<E: BeltElementType>(drive: &Drive, assembly: &Assembly<E>) -> Self {
+        let names: Vec<String> = drive.pulley.iter().map(|p| p.name.clone()).collect();
+        let inertias: Vec<f64> = drive.pulley.iter().map(|p| p.inertia).collect();
+        let end = drive.run.end_time;
+        let mut profile_times = drive.run.profile_times.clone();
+        if profile_times.is_empty() {
+            profile_times.push(end);
+        }
+        profile_times.sort_by(f64::total_cmp);
+        Self {
+            observer: Observer::new(&assembly.system, names.clone(), &inertias),
+            layout: assembly.layout.clone(),
+            element_start: assembly.element_start.clone(),
+            recording: Duration::ZERO,
+            pulleys: vec![PulleyState::default(); names.len()],
+            spans: vec![SpanState::default(); names.len()],
+            history: History::new(&names),
+            profile: Vec::new(),
+            state: assembly.motion.clone(),
+            output_times: output_times(end, drive.run.output_interval),
+            next_output: 0,
+            profile_times,
+            next_profile: 0,
+            initial: Stored::default(),
+            powers: Powers::default(),
+            work: Powers::default(),
+            turnover: 0.0,
+            largest_residual: 0.0,
+            momenta: vec![Momentum::default(); names.len()],
+        }
+    }
+
+    /// Observes the state before the first step.
+    pub fn start<E: BeltElementType>(
+        &mut self,
+        assembly: &Assembly<E>,
+        settled: Settled,
+    ) -> StartState {
+        let system = &assembly.system;
+        // The prescribed speeds may start with a jump: stored energy counts from just after it.
+        let mut begun = assembly.motion.clone();
+        system.prescribe(begun.time, &mut begun.q, &mut begun.v, &mut begun.a);
+        self.observer.survey(system, &begun);
+        self.initial = self.observer.stored(system, &begun);
+        self.powers = self.observer.powers(system, &begun);
+        for (p, momentum) in self.momenta.iter_mut().enumerate() {
+            let (speed, torque) = self.observer.momentum(system, &begun, p);
+            momentum.torque = torque;
+            momentum.first_speed = speed;
+            momentum.speed = speed;
+        }
+        StartState {
+            tension: self.observer.mean_tension(),
+            penetration: self.observer.penetration(),
+            iterations: settled.iterations,
+        }
+    }
+
+    /// Takes the step of `window` in: balances first, then rows at the output times within it.
+    pub fn step<E: BeltElementType>(&mut self, system: &BeltSystem<E>, window: Window<'_>) {
+        let (t0, t1) = (window.from.time, window.to.time);
+        let step = t1 - t0;
+
+        // The trapezoidal rule is of second order as the schemes are. Simpson's rule on interpolated
+        // states left forty times the residual on the base case, probably because accelerations carry
+        // the noise of fast modes into velocities interpolated with them.
+        self.observer.look(system, window.to);
+        let last = self.observer.powers(system, window.to);
+        for (p, momentum) in self.momenta.iter_mut().enumerate() {
+            let (speed, torque) = self.observer.momentum(system, window.to, p);
+            momentum.impulse += 0.5 * step * (momentum.torque + torque);
+            momentum.moved += 0.5 * step * (momentum.torque.abs() + torque.abs());
+            momentum.torque = torque;
+            momentum.speed = speed;
+        }
+        let first = self.powers;
+        let work_before = self.work;
+        // Integral of the line through the powers at both ends up to the part `s` of the step.
+        let work_until = |s: f64| {
+            work_before
+                .plus(step * (s - 0.5 * s * s), &first)
+                .plus(step * 0.5 * s * s, &last)
+        };
+        self.work = work_until(1.0);
+        self.turnover += 0.5
+            * step
+            * (first.input.abs() + first.load.abs() + last.input.abs() + last.load.abs());
+        self.powers = last;
+
+        let stored = self.observer.stored(system, window.to);
+        let residual = self.residual(&stored, &self.work);
+        self.largest_residual = self.largest_residual.max(residual.abs());
+
+        let slack = 1.0e-9 * step;
+        let due = |times: &[f64], next: usize| times.get(next).is_some_and(|t| *t <= t1 + slack);
+        if !due(&self.output_times, self.next_output)
+            && !due(&self.profile_times, self.next_profile)
+        {
+            return;
+        }
+        let cpu = cpu_time::ThreadTime::now();
+        let mut state = std::mem::replace(&mut self.state, Motion::zero(0));
+        while due(&self.output_times, self.next_output) {
+            let time = self.output_times[self.next_output];
+            window.interpolate(time, &mut state);
+            self.row(system, &state, &work_until((time - t0) / step));
+            self.next_output += 1;
+        }
+        while due(&self.profile_times, self.next_profile) {
+            window.interpolate(self.profile_times[self.next_profile], &mut state);
+            self.observer.survey(system, &state);
+            let rows = self.observer.profile(state.time, &self.element_start);
+            self.profile.extend(rows);
+            self.next_profile += 1;
+        }
+        self.state = state;
+        self.recording += cpu.elapsed();
+    }
+
+    fn row<E: BeltElementType>(&mut self, system: &BeltSystem<E>, state: &Motion, work: &Powers) {
+        self.observer.survey(system, state);
+        self.observer.pulleys(system, state, &mut self.pulleys);
+        let stored = self.observer.stored(system, state);
+        self.observer.spans(&self.layout, &mut self.spans);
+        let residual = self.residual(&stored, work);
+        self.history.push(
+            state.time,
+            &self.pulleys,
+            &self.spans,
+            &stored,
+            work,
+            residual,
+        );
+    }
+
+    /// What is stored beyond what was put in and not taken out [J].
+    fn residual(&self, stored: &Stored, work: &Powers) -> f64 {
+        stored.total() - self.initial.total() - work.input - work.load
+            + work.friction
+            + work.contact
+            + work.damping
+    }
+
+    pub fn audit(&self, drive: &Drive) -> Audit {
+        // A drive at rest turns nothing over: compare with what the belt has stored.
+        let scale = self.turnover.max(1.0e-6 * self.initial.total());
+        let torque_residual = self
+            .momenta
+            .iter()
+            .zip(&drive.pulley)
+            .filter(|(momentum, pulley)| !pulley.is_driver() && momentum.moved > 0.0)
+            .map(|(momentum, pulley)| {
+                let gained = pulley.inertia * (momentum.speed - momentum.first_speed);
+                (gained - momentum.impulse).abs() / momentum.moved
+            })
+            .fold(0.0, f64::max);
+        Audit {
+            energy_input: self.work.input,
+            turnover: self.turnover,
+            energy_residual: self.largest_residual / scale,
+            torque_residual,
+            tolerance: 0.1 * drive.run.accuracy,
+        }
+    }
+}
+
+/// Multiples of `interval` from zero, and the end.
+fn output_times(end: f64, interval: f64) -> Vec<f64> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a positive count of rows"
+    )]
+    let count = (end / interval * (1.0 + 1.0e-12)).floor() as usize;
+    let mut times: Vec<f64> = (0..=count)
+        .map(|i| (i as f64 * interval).min(end))
+        .collect();
+    if times
+        .last()
+        .is_some_and(|last| end - last > 1.0e-9 * interval)
+    {
+        times.push(end);
+    }
+    times
+}
