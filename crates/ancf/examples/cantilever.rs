@@ -23,8 +23,10 @@ fn main() -> Result<(), StructureError> {
         let bent = beam.equilibrium()?;
         let [x, y] = beam.position(&bent.q, beam.last());
         let [_, lift] = beam.reaction(&bent, 0);
-        let iterations: usize = bent.iterations.iter().sum();
-        println!("{count:8}   {x:9.5}   {y:9.5}   {lift:12.1}   {iterations:10}");
+        println!(
+            "{count:8}   {x:9.5}   {y:9.5}   {lift:12.1}   {:10}",
+            bent.iterations()
+        );
     }
     Ok(())
 }

@@ -25,8 +25,10 @@
 
 mod build;
 mod free_motion;
+mod modes;
 
-pub use free_motion::FreeMotion;
+pub use free_motion::{FreeMotion, RigidMotion};
+pub use modes::Mode;
 
 use std::sync::Arc;
 
@@ -395,7 +397,7 @@ impl<E: LineElement> PlanarStructure<E> {
         self
     }
 
-    /// Chooses how statics applies the loads; the default is one step.
+    /// Chooses how statics applies the loads; the default is one step to 1e-9 of the length.
     pub fn load_steps(&mut self, options: LoadSteps) -> &mut Self {
         self.load_steps = Some(options);
         self

@@ -1,7 +1,7 @@
 //! Equilibrium under dead loads: Newton's method in load steps, with a line search.
 //!
 //! ```text
-//! f(q) - C_q^T lambda = 0,   C(q) = 0       loads times k/n for k = 1 .. n
+//! f(q) - C_q^T lambda = 0,   C(q) = 0       loads times a factor that rises to 1
 //! J b = f - C_q^T lambda,    q <- q + s b   J of (2.32) with K in place of M
 //! ```
 //!
@@ -9,6 +9,7 @@
 //! taken if `|b~| < (1 - s/4) |b|`, else `s` is halved. Unlike a test of forces it is not upset by the
 //! axial forces that any finite rotation of a slender beam first calls up. The iteration ends when
 //! `|b~|` is below the tolerance after a full step; as b~ is added too, the error left is far smaller.
+//! A load step that does not converge is halved, and doubled again after one that does.
 
 use thiserror::Error;
 
@@ -27,8 +28,10 @@ pub trait Loaded: Mechanics {
 /// How to apply the loads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSteps {
-    /// Number of equal load steps, at least 1.
+    /// Number of equal load steps to begin with, at least 1.
     pub steps: usize,
+    /// How often a step that does not converge may be halved.
+    pub halvings: u32,
     /// Correction at which a step ends, in scaled metres.
     pub tolerance: f64,
     /// Most iterations of a step.
@@ -44,8 +47,15 @@ pub struct Equilibrium {
     pub multipliers: Vec<f64>,
     /// Generalised forces of the constraints on the structure, `-C_q^T lambda` [N, N m].
     pub reactions: Vec<f64>,
-    /// Newton iterations of each load step.
-    pub iterations: Vec<usize>,
+    /// Size of each Newton correction, load step by load step, in scaled metres.
+    pub corrections: Vec<Vec<f64>>,
+}
+
+impl Equilibrium {
+    /// Newton iterations of all load steps together.
+    pub fn iterations(&self) -> usize {
+        self.corrections.iter().map(Vec::len).sum()
+    }
 }
 
 /// Loads that found no equilibrium.
@@ -53,15 +63,13 @@ pub struct Equilibrium {
 pub enum LoadStepError {
     /// A load step did not converge.
     #[error(
-        "load step {step} of {steps} does not converge: the last converged load is {converged:.4} of the \
-         whole; corrections [m] {}; more load steps may help",
+        "the load step to {tried:.4} of the whole load does not converge: the last converged load is \
+         {converged:.4} of the whole; corrections [m] {}; more load steps or halvings may help",
         corrections(history)
     )]
     NotConverged {
-        /// The failing step, counted from 1.
-        step: usize,
-        /// Load steps asked for.
-        steps: usize,
+        /// Part of the loads that was tried last.
+        tried: f64,
         /// Part of the loads that the last equilibrium carried.
         converged: f64,
         /// Size of each correction of the failing step, in scaled metres.
@@ -69,12 +77,10 @@ pub enum LoadStepError {
     },
     /// The tangent is singular.
     #[error(
-        "the tangent is singular at load step {step}, after {converged:.4} of the whole load: coordinate \
-         {coordinate} is free, or the structure buckles"
+        "the tangent is singular after {converged:.4} of the whole load: coordinate {coordinate} is free, or \
+         the structure buckles"
     )]
     Singular {
-        /// The failing step, counted from 1.
-        step: usize,
         /// Part of the loads that the last equilibrium carried.
         converged: f64,
         /// The coordinate whose pivot vanished.
@@ -96,25 +102,44 @@ pub fn equilibrium(
     options: &LoadSteps,
 ) -> Result<Equilibrium, LoadStepError> {
     let mut newton = Newton::new(system, time, start);
-    let steps = options.steps.max(1);
-    let mut iterations = Vec::with_capacity(steps);
-    for step in 1..=steps {
-        system.set_load_factor(step as f64 / steps as f64);
-        let converged = (step - 1) as f64 / steps as f64;
+    let mut corrections = Vec::new();
+    let first = (options.steps.max(1) as f64).recip();
+    let (mut converged, mut increment) = (0.0, first);
+    let mut halvings = 0;
+    while converged < 1.0 {
+        // What rounding leaves to the end is no step of its own.
+        let rest = 1.0 - converged;
+        let tried = if rest < 1.001 * increment {
+            1.0
+        } else {
+            converged + increment
+        };
+        system.set_load_factor(tried);
         let mut history = Vec::new();
+        newton.keep();
         match newton.solve(system, options, &mut history) {
-            Ok(true) => iterations.push(history.len()),
+            Ok(true) => {
+                converged = tried;
+                corrections.push(history);
+                if halvings > 0 {
+                    halvings -= 1;
+                    increment *= 2.0;
+                }
+            }
+            Ok(false) if halvings < options.halvings => {
+                newton.restore(system);
+                halvings += 1;
+                increment = 0.5 * (tried - converged);
+            }
             Ok(false) => {
                 return Err(LoadStepError::NotConverged {
-                    step,
-                    steps,
+                    tried,
                     converged,
                     history,
                 });
             }
             Err(Singular { row }) => {
                 return Err(LoadStepError::Singular {
-                    step,
                     converged,
                     coordinate: row,
                 });
@@ -131,7 +156,7 @@ pub fn equilibrium(
         reactions: force.iter().map(|f| -f).collect(),
         q,
         multipliers,
-        iterations,
+        corrections,
     })
 }
 
@@ -145,7 +170,6 @@ pub fn linear_response(
     let mut newton = Newton::new(system, time, start);
     newton.residual(system, Which::Base);
     (newton.factor(system)).map_err(|Singular { row }| LoadStepError::Singular {
-        step: 1,
         converged: 0.0,
         coordinate: row,
     })?;
@@ -166,6 +190,8 @@ struct Newton {
     correction: Vec<f64>,
     base: Vec<f64>,
     base_multipliers: Vec<f64>,
+    /// The last equilibrium and its multipliers.
+    kept: [Vec<f64>; 2],
     trial_correction: Vec<f64>,
     matrix: BorderedMatrix,
     solver: CyclicSolver,
@@ -190,6 +216,7 @@ impl Newton {
             correction: zero.clone(),
             base: zero.clone(),
             base_multipliers: zero.clone(),
+            kept: [zero.clone(), zero.clone()],
             trial_correction: zero,
             matrix: BorderedMatrix::new(structure),
             solver: CyclicSolver::new(structure),
@@ -198,6 +225,17 @@ impl Newton {
         };
         newton.prescribe(system);
         newton
+    }
+
+    fn keep(&mut self) {
+        self.kept[0].copy_from_slice(&self.q);
+        self.kept[1].copy_from_slice(&self.multipliers);
+    }
+
+    fn restore(&mut self, system: &dyn Mechanics) {
+        self.q.copy_from_slice(&self.kept[0]);
+        self.multipliers.copy_from_slice(&self.kept[1]);
+        self.prescribe(system);
     }
 
     /// Iterates to equilibrium; false if it does not converge.

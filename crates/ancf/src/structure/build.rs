@@ -23,7 +23,9 @@ const CONSISTENT: f64 = 1.0e-9;
 /// Correction at which statics ends, relative to the length of the chain; the error left is its square.
 const TOLERANCE: f64 = 1.0e-9;
 /// Iterations of a load step.
-const MAX_ITERATIONS: usize = 50;
+const MAX_ITERATIONS: usize = 25;
+/// Halvings of a load step: bending a beam far beyond its thickness at once may take many.
+const HALVINGS: u32 = 12;
 
 impl<E: LineElement> Loaded for System<E, Loads> {
     fn set_load_factor(&mut self, factor: f64) {
@@ -170,6 +172,7 @@ impl<E: LineElement> PlanarStructure<E> {
         let mut system = self.build()?;
         let options = self.load_steps.unwrap_or(LoadSteps {
             steps: 1,
+            halvings: HALVINGS,
             tolerance: TOLERANCE * self.length(),
             max_iterations: MAX_ITERATIONS,
         });
