@@ -17,10 +17,10 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "target" / "release" / "hihna"
 DRIVE = ROOT / "examples" / "towards_the_string.toml"
 SWEEPS = {
-    "belt.elements": [60, 80, 100, 120, 160],
+    "belt.elements": [60, 80, 100, 120],
     "belt.bending_factor": [1.0, 0.1, 0.01, 0.001],
     "contact.stiffness": [1e7, 1e8, 1e9, 1e10],
-    "contact.friction.slope": [1e4, 1e5, 1e6],
+    "contact.friction.slope": [1e4, 3e4, 1e5, 3e5],
 }
 
 

@@ -19,7 +19,8 @@ fn the_belt_beam_tends_to_the_string() {
     assert!(outcome.audit.passed(), "{:?}", outcome.audit);
     let means = Summary::new(&drive, &outcome).steady;
 
-    let string = DriveString::new(&drive, Model::Full, Closure::UnstretchedLength).expect("a string drive");
+    let string =
+        DriveString::new(&drive, Model::Full, Closure::UnstretchedLength).expect("a string drive");
     let Ok(Answer::Running(running)) = string.solve() else {
         panic!("the string does not run");
     };
@@ -31,11 +32,18 @@ fn the_belt_beam_tends_to_the_string() {
     let (driver, driven) = (speed("driver"), speed("driven"));
     for pulley in string.pulleys(&running) {
         let off = speed(&pulley.name) / pulley.speed - 1.0;
-        assert!(off.abs() < 1.0e-3, "{}: speed off by {off:.1e}", pulley.name);
+        assert!(
+            off.abs() < 1.0e-3,
+            "{}: speed off by {off:.1e}",
+            pulley.name
+        );
         if pulley.name == "driven" {
             let loss = 1.0 - driven / driver;
             let exact = 1.0 - pulley.speed / driver;
-            assert!((loss / exact - 1.0).abs() < 0.05, "loss {loss:.3e}, string {exact:.3e}");
+            assert!(
+                (loss / exact - 1.0).abs() < 0.05,
+                "loss {loss:.3e}, string {exact:.3e}"
+            );
         }
     }
     for (span, (name, found)) in string.spans(&running).iter().zip(&means.span.0) {
