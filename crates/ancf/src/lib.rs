@@ -5,9 +5,11 @@
 
 #[cfg(feature = "checks")]
 pub mod checks;
+pub mod constraint;
 pub mod dynamics;
 pub mod element;
 pub mod linear;
+pub mod loads;
 pub mod material;
 pub mod mesh;
 pub mod norm;
@@ -16,4 +18,5 @@ pub mod scalar;
 pub mod section;
 pub mod statics;
 pub mod strain;
+pub mod structure;
 pub mod system;

@@ -13,7 +13,11 @@
 //! order the potential then falls. Unlike a test of norms this is not upset by the kinks of contact or
 //! by directions of negative stiffness. Steps are capped; where `b` leads uphill the shift grows again.
 
+mod load_steps;
+
 use std::ops::ControlFlow;
+
+pub use load_steps::{Equilibrium, LoadStepError, LoadSteps, Loaded, equilibrium, linear_response};
 
 use thiserror::Error;
 

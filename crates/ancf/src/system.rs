@@ -7,10 +7,13 @@
 //! ```
 //!
 //! with prescribed rigid coordinates put in exactly. [`Mechanics`] is what integrators and statics
-//! see of it.
+//! see of it. Constraints ([`crate::constraint`]) may add their multipliers as the last unknowns of the
+//! border: in a vector of accelerations the value there is the multiplier, in coordinates and
+//! velocities it is zero.
 
 use std::fmt;
 
+use crate::constraint::ConstraintSet;
 use crate::element::Element;
 use crate::linear::{BorderedMatrix, CompressedRows, Structure};
 use crate::mesh::Mesh;
@@ -54,7 +57,7 @@ pub trait Mechanics {
     /// Coordinates whose motion is prescribed: index and motion.
     fn prescribed(&self) -> &[(usize, Box<dyn Motion>)];
 
-    /// Scale [m per unit] of each coordinate in convergence norms.
+    /// Scale [m per unit] of each coordinate in convergence norms; zero for multipliers.
     fn scales(&self) -> &[f64];
 
     /// Components of the vectors that the chain's coordinates are made of. Norms take the length of each
@@ -63,10 +66,18 @@ pub trait Mechanics {
         1
     }
 
-    /// Puts the prescribed coordinates, velocities and accelerations at `time` in.
+    /// The constraints, if any.
+    fn constraints(&self) -> Option<&ConstraintSet> {
+        None
+    }
+
+    /// Puts the prescribed and the dependent coordinates, velocities and accelerations at `time` in.
     fn prescribe(&self, time: f64, q: &mut [f64], v: &mut [f64], a: &mut [f64]) {
         for (index, motion) in self.prescribed() {
             [q[*index], v[*index], a[*index]] = motion.at(time);
+        }
+        if let Some(constraints) = self.constraints() {
+            constraints.enforce(time, q, v, a);
         }
     }
 }
@@ -127,6 +138,7 @@ pub struct System<E, L> {
     constant_force: Vec<f64>,
     prescribed: Vec<(usize, Box<dyn Motion>)>,
     scales: Vec<f64>,
+    constraints: Option<ConstraintSet>,
 }
 
 impl<E: Element, L: ForceLaw> System<E, L> {
@@ -158,7 +170,24 @@ impl<E: Element, L: ForceLaw> System<E, L> {
             constant_force: vec![0.0; structure.size()],
             prescribed,
             scales,
+            constraints: None,
         }
+    }
+
+    /// The same system under constraints, whose multipliers follow the rigid coordinates.
+    #[must_use]
+    pub fn constrained(mut self, constraints: ConstraintSet) -> Self {
+        self.structure.border += constraints.multipliers();
+        let mut mass = BorderedMatrix::new(self.structure);
+        for (row, column, value) in self.mass.triplets().filter(|(_, _, value)| *value != 0.0) {
+            mass.add(row, column, value);
+        }
+        self.compressed_mass = CompressedRows::new(&mass);
+        self.mass = mass;
+        self.constant_force.resize(self.structure.size(), 0.0);
+        self.scales.resize(self.structure.size(), 0.0);
+        self.constraints = Some(constraints);
+        self
     }
 
     /// Adds gravity: a uniform acceleration field [m/s²] on the flexible body.
@@ -242,5 +271,9 @@ impl<E: Element, L: ForceLaw> Mechanics for System<E, L> {
 
     fn dimension(&self) -> usize {
         E::DIMENSION
+    }
+
+    fn constraints(&self) -> Option<&ConstraintSet> {
+        self.constraints.as_ref()
     }
 }

@@ -9,6 +9,7 @@ use hihna::input::{InputError, InputErrors};
 use hihna::record::RecordError;
 use hihna::simulate::RunError;
 use hihna::steady::string::StringError;
+use hihna::validate::{CatalogueError, UnknownCase};
 use miette::{
     Diagnostic, LabeledSpan, MietteHandlerOpts, NamedSource, Report, Severity, SourceCode,
 };
@@ -57,6 +58,18 @@ pub enum Failure {
         /// Where the results are.
         folder: PathBuf,
     },
+    /// No validation case has this name.
+    #[error(transparent)]
+    UnknownCase(#[from] UnknownCase),
+    /// The program's own validation data is broken.
+    #[error(transparent)]
+    Catalogue(#[from] CatalogueError),
+    /// Values differ from the published ones; the answer is printed and says which.
+    #[error("{failed} of the values differ from the published ones by more than their tolerance")]
+    Validation {
+        /// How many.
+        failed: usize,
+    },
     /// Standard output does not take the answer.
     #[error("cannot write to standard output: {0}")]
     Output(io::Error),
@@ -72,6 +85,7 @@ impl Failure {
             Self::Input(_)
             | Self::Argument { .. }
             | Self::Folder(_)
+            | Self::UnknownCase(_)
             | Self::Run(RunError::Assembly(_)) => ExitCode::from(2),
             _ => ExitCode::from(1),
         }
@@ -98,7 +112,7 @@ impl Failure {
         let errors: Vec<Value> = match self {
             Self::Input(errors) => errors.iter().map(input_error_json).collect(),
             // The summary is there already, and says so.
-            Self::Audit { .. } | Self::Output(_) => return,
+            Self::Audit { .. } | Self::Validation { .. } | Self::Output(_) => return,
             failure => vec![json!({ "message": failure.to_string(), "help": failure.help() })],
         };
         // If this fails, too, the message on standard error is all that can be done.
@@ -115,6 +129,15 @@ impl Failure {
             }
             Self::Run(RunError::Stopped { .. }) => "nothing was written",
             Self::Argument { help, .. } => help,
+            Self::UnknownCase(UnknownCase {
+                nearest: Some(nearest),
+                ..
+            }) => {
+                return Some(format!(
+                    "did you mean `{nearest}`? `hihna validate --list` prints all"
+                ));
+            }
+            Self::UnknownCase(_) => "`hihna validate --list` prints the cases",
             Self::Steady(_) => {
                 "check stiffness, tension and torques of the drive for slips of the decimal point"
             }

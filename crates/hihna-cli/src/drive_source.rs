@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use hihna::drive::Drive;
-use hihna::input::{self, InputErrors, Override};
+use hihna::input::{DriveFile, InputErrors, Override};
 
 const BUILT_IN: &str = include_str!("../../../examples/two_pulley.toml");
 const BUILT_IN_NAME: &str = "two_pulley.toml";
@@ -25,14 +25,19 @@ pub struct DriveSource {
 impl DriveSource {
     /// Reads and checks the drive.
     pub fn load(&self) -> Result<Drive, InputErrors> {
+        self.open().map(|file| file.drive)
+    }
+
+    /// Reads and checks the drive and keeps its text for messages.
+    pub fn open(&self) -> Result<DriveFile, InputErrors> {
         let overrides = self
             .overrides
             .iter()
             .map(|text| text.parse())
             .collect::<Result<Vec<Override>, _>>()?;
         match &self.file {
-            Some(file) => input::load(file, &overrides),
-            None => input::parse(BUILT_IN_NAME, BUILT_IN, &overrides),
+            Some(file) => DriveFile::load(file, &overrides),
+            None => DriveFile::parse(BUILT_IN_NAME, BUILT_IN, &overrides),
         }
     }
 

@@ -12,6 +12,7 @@ mod standard_output;
 mod steady;
 mod summary;
 mod tables;
+mod validate;
 
 use std::process::ExitCode;
 
@@ -26,12 +27,13 @@ struct Program {
 }
 
 const AFTER_HELP: &str = "\
-Exit status: 0 done; 1 the run failed or its audit broke its tolerance; 2 the input or the arguments are wrong.";
+Exit status: 0 done; 1 the run failed, its audit broke its tolerance or a validation failed; 2 the input or the arguments are wrong.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Arguments),
     Steady(steady::Arguments),
+    Validate(validate::Arguments),
     Check(check::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
@@ -42,12 +44,14 @@ fn main() -> ExitCode {
     let json = match &command {
         Command::Run(arguments) => arguments.json,
         Command::Steady(arguments) => arguments.json,
+        Command::Validate(arguments) => arguments.json,
         Command::Check(arguments) => arguments.json,
         Command::Schema(_) | Command::Completions(_) => false,
     };
     let result = match command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Steady(arguments) => steady::steady(&arguments),
+        Command::Validate(arguments) => validate::validate(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),

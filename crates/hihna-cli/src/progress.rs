@@ -1,4 +1,5 @@
-//! How far a run has come: a bar on standard error with simulated time and estimated time left.
+//! How far a run has come: bars on standard error, with simulated time and estimated time left, or
+//! with a count.
 
 use std::time::{Duration, Instant};
 
@@ -61,6 +62,35 @@ impl Bar {
             "{:.3} of {:.3} s simulated in {} steps",
             progress.time, progress.end_time, progress.steps
         ));
+    }
+
+    /// Removes the bar.
+    pub fn finish(self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// A bar of things that are done or not, drawn if standard error is a terminal; threads may share it.
+pub struct CountBar {
+    bar: ProgressBar,
+}
+
+impl CountBar {
+    /// An empty bar for `count` things.
+    pub fn new(count: usize) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
+        // The template is fixed; without it there is a plain bar.
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos} of {len}  {msg}") {
+            bar.set_style(style);
+        }
+        bar.tick();
+        Self { bar }
+    }
+
+    /// One more is done.
+    pub fn done(&self, name: &str) {
+        self.bar.set_message(name.to_owned());
+        self.bar.inc(1);
     }
 
     /// Removes the bar.

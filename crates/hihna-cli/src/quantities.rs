@@ -34,6 +34,17 @@ pub fn percent(value: f64) -> String {
     plain(100.0 * value, "%")
 }
 
+/// `12.34°` of 0.2154.
+pub fn degrees(angle: f64) -> String {
+    // Without the sign of a negative zero.
+    format!("{:.2}°", (100.0 * angle.to_degrees()).round() / 100.0 + 0.0)
+}
+
+/// `12.34` of 12.341.
+pub fn significant(value: f64) -> String {
+    digits(value)
+}
+
 /// Four significant digits, or the whole number if that has more.
 fn digits(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {

@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             summary: &found,
         })?;
     } else if !arguments.quiet {
-        standard_output::print(&summary::in_words(&found, &outcome.layout, &folder))?;
+        standard_output::print(&summary::in_words(&found, &folder))?;
     }
     if found.audit.passed {
         return Ok(());

@@ -4,14 +4,13 @@ use std::fmt::Write;
 use std::path::Path;
 
 use comfy_table::Table;
-use hihna::layout::Layout;
-use hihna::summary::{Report, Summary};
+use hihna::summary::{Report, Scatter, Summary};
 
-use crate::quantities::{percent, plain, with_prefix};
+use crate::quantities::{degrees, percent, plain, with_prefix};
 use crate::tables::columns;
 
 /// What an engineer wants to know first.
-pub fn in_words(summary: &Summary, layout: &Layout, folder: &Path) -> String {
+pub fn in_words(summary: &Summary, folder: &Path) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -42,8 +41,12 @@ pub fn in_words(summary: &Summary, layout: &Layout, folder: &Path) -> String {
         with_prefix(summary.start.penetration, "m"),
     );
     let _ = writeln!(text, "Means over the last tenth of the run:\n");
-    let _ = writeln!(text, "{}\n", pulleys(&summary.steady, layout).trim_fmt());
-    let _ = writeln!(text, "{}\n", spans(&summary.steady).trim_fmt());
+    let _ = writeln!(text, "{}\n", pulleys(&summary.steady).trim_fmt());
+    let _ = writeln!(
+        text,
+        "{}\n",
+        spans(&summary.steady, &summary.scatter).trim_fmt()
+    );
     let steady = &summary.steady;
     let _ = writeln!(
         text,
@@ -65,38 +68,33 @@ pub fn in_words(summary: &Summary, layout: &Layout, folder: &Path) -> String {
     text
 }
 
-/// Speeds, torques, hub loads, span tensions before and after each pulley, slip and creep.
-fn pulleys(report: &Report, layout: &Layout) -> Table {
+/// Speeds, torques, hub loads, tensions where the belt runs on and off, slip and creep.
+fn pulleys(report: &Report) -> Table {
     let header = [
         "pulley",
         "speed",
         "torque by belt",
         "external",
         "hub load",
-        "tension before",
-        "after",
+        "tension on",
+        "off",
+        "contact",
+        "slip arc",
         "slip",
         "speed loss",
     ];
-    let mut table = columns(&header, &[1, 2, 3, 4, 5, 6, 7, 8]);
-    let spans = &report.span.0;
-    let tension = |span: usize| spans.get(span).map_or(f64::NAN, |(_, span)| span.tension);
-    for (i, (name, pulley)) in report.pulley.0.iter().enumerate() {
-        let mut tensions = [
-            tension((i + spans.len()).saturating_sub(1) % spans.len().max(1)),
-            tension(i),
-        ];
-        if runs_backwards(report, layout) {
-            tensions.reverse();
-        }
+    let mut table = columns(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
+    for (name, pulley) in &report.pulley.0 {
         table.add_row([
             name.clone(),
             plain(pulley.speed, "rad/s"),
             with_prefix(pulley.torque, "N m"),
             with_prefix(pulley.external_torque, "N m"),
             with_prefix(pulley.hub_force[0].hypot(pulley.hub_force[1]), "N"),
-            with_prefix(tensions[0], "N"),
-            with_prefix(tensions[1], "N"),
+            with_prefix(pulley.tension_in, "N"),
+            with_prefix(pulley.tension_out, "N"),
+            degrees(pulley.contact_angle),
+            degrees(pulley.slip_angle),
             with_prefix(pulley.slip_speed, "m/s"),
             percent(pulley.speed_loss),
         ]);
@@ -104,24 +102,24 @@ fn pulleys(report: &Report, layout: &Layout) -> Table {
     table
 }
 
-/// Whether the belt runs against the order of the pulleys in the file: then a span before a pulley in
-/// the file is the span after it on the way of the belt.
-fn runs_backwards(report: &Report, layout: &Layout) -> bool {
-    let along = layout
-        .arcs
-        .iter()
-        .zip(&report.pulley.0)
-        .map(|(arc, (_, pulley))| pulley.speed * arc.sweep);
-    along.sum::<f64>() < 0.0
-}
-
-fn spans(report: &Report) -> Table {
-    let mut table = columns(&["span", "tension", "strain"], &[1, 2]);
-    for (name, span) in &report.span.0 {
+fn spans(report: &Report, scatter: &Scatter) -> Table {
+    let header = [
+        "span",
+        "tension",
+        "scatter",
+        "strain",
+        "belt speed",
+        "deflection",
+    ];
+    let mut table = columns(&header, &[1, 2, 3, 4, 5]);
+    for ((name, span), (_, scatter)) in report.span.0.iter().zip(&scatter.span.0) {
         table.add_row([
             name.clone(),
             with_prefix(span.tension, "N"),
+            with_prefix(scatter.tension, "N"),
             percent(span.strain),
+            with_prefix(span.speed, "m/s"),
+            with_prefix(span.deflection, "m"),
         ]);
     }
     table

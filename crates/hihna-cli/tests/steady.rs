@@ -360,7 +360,115 @@ fn bad_input_is_named_with_what_to_change() {
         let (stdout, _) = told(folder.path(), &[arguments, &["--json"]].concat(), 2);
         let errors: Value = serde_json::from_str(&stdout).unwrap();
         assert_eq!(errors["errors"][0]["field"], field);
+        let place = &errors["errors"][0];
+        let known = place["file"].is_string() && number(&place["line"]) >= 1.0;
+        assert!(known || field == "pulley", "{place}");
     }
+}
+
+/// What only the theory finds wrong is shown at its line of the file, as other errors are.
+#[test]
+fn what_the_theory_refuses_is_shown_at_its_line() {
+    let folder = TempDir::new().unwrap();
+    let example = fs::read_to_string(MODEL_2).unwrap();
+    let speed = "speed = { kind = \"ramp\", from = 0.0, to = 500.0, start = 0.0, end = 0.5 }";
+    let cases = [
+        (speed, "speed = 0.0", "speed = 0.0", "one that turns"),
+        (
+            speed,
+            "angle = { kind = \"ramp\", from = 0.0, to = 9.0, start = 0.0, end = 1.0 }",
+            "angle = ",
+            "give its `speed`",
+        ),
+        // Finite numbers whose product is not.
+        (
+            "youngs_modulus = \"2 MPa\"",
+            "youngs_modulus = 1.0e308\naxial_factor = 1.0e9",
+            "youngs_modulus = 1.0e308",
+            "axial stiffness",
+        ),
+    ];
+    for (old, new, at, message) in cases {
+        assert!(example.contains(old));
+        let text = example.replacen(old, new, 1);
+        let file = folder.path().join("drive.toml");
+        fs::write(&file, &text).unwrap();
+        let line = text.lines().position(|line| line.contains(at)).unwrap() + 1;
+        let (_, shown) = told(folder.path(), &["drive.toml"], 2);
+        assert!(shown.contains(&format!("drive.toml:{line}:")), "{shown}");
+        assert!(shown.contains(at) && shown.contains(message), "{shown}");
+        let (stdout, _) = told(folder.path(), &["drive.toml", "--json"], 2);
+        let errors: Value = serde_json::from_str(&stdout).unwrap();
+        assert_eq!(errors["errors"][0]["line"], line);
+    }
+}
+
+/// Half of a percent more load against the derivative by the load: the second-order term is below a
+/// percent of the change. Elasticities are derivatives times value by result.
+#[test]
+fn sensitivities_predict_a_changed_drive() {
+    let folder = TempDir::new().unwrap();
+    let arguments = [
+        MODEL_2,
+        "--sensitivity",
+        "pulley.driven.torque,belt.tension",
+    ];
+    let answer = object(folder.path(), &arguments);
+    let fields = &answer["sensitivity"];
+    assert_eq!(fields.as_object().unwrap().len(), 2);
+    let load = &fields["pulley.driven.torque"];
+    assert_eq!(
+        (number(&load["value"]), &load["unit"]),
+        (-2.0, &"N m".into())
+    );
+    let moved = object(
+        folder.path(),
+        &[MODEL_2, "--set", "pulley.driven.torque=-2.01"],
+    );
+    for (name, path) in [
+        ("pulley.driven.speed", ["pulley", "driven", "speed"]),
+        (
+            "span.driven-driver.tension",
+            ["span", "driven-driver", "tension"],
+        ),
+    ] {
+        let result = &load["results"][name];
+        let at = |answer: &Value| {
+            path.iter()
+                .fold(answer["steady"].clone(), |v, key| v[key].clone())
+        };
+        let (before, after) = (number(&at(&answer)), number(&at(&moved)));
+        assert_eq!(result["value"], at(&answer));
+        let predicted = -0.01 * number(&result["derivative"]);
+        assert!(
+            (after - before - predicted).abs() < 0.01 * predicted.abs(),
+            "{name}"
+        );
+        let elasticity = -2.0 * number(&result["derivative"]) / before;
+        assert!((number(&result["elasticity"]) / elasticity - 1.0).abs() < 1.0e-12);
+    }
+    let (table, _) = told(folder.path(), &arguments, 0);
+    for part in [
+        "by pulley.driven.torque = -2.000 N m",
+        "by belt.tension = 50.00 N",
+        "elasticity",
+        "efficiency",
+    ] {
+        assert!(table.contains(part), "{part}:\n{table}");
+    }
+    // A drive that slips has none, and says so; a key that plays no part is named.
+    let slips = [&arguments[..], &["--set", "pulley.driven.torque=-40"]].concat();
+    let (_, warning) = told(folder.path(), &slips, 0);
+    assert!(warning.contains("no sensitivities"), "{warning}");
+    let (_, message) = told(
+        folder.path(),
+        &[MODEL_2, "--sensitivity", "belt.tensoin"],
+        2,
+    );
+    assert!(
+        message.contains("did you mean `belt.tension`?"),
+        "{message}"
+    );
 }
 
 #[test]

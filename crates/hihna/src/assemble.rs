@@ -2,20 +2,22 @@
 //! path around the pulleys, the nodes `path / n` apart.
 
 use std::num::NonZeroUsize;
+use std::sync::Arc;
 
+use ancf::constraint::{Constant, ConstraintError, ConstraintForm, ConstraintSet, LinearEquation};
 use ancf::dynamics::Motion;
 use ancf::element::{BeltBeam2, CubicBeam2, LineElement, LinearBeam2};
 use ancf::material::Isotropic;
 use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 use ancf::section::PlanarSection;
-use ancf::system::{self, RigidCoordinate, System};
+use ancf::system::{self, Mechanics, RigidCoordinate, System};
 use thiserror::Error;
 
 use crate::contact::{BeltContact, ContactPulley, Penalty};
-use crate::drive::{Belt, Drive, Pulley};
+use crate::drive::{Belt, Drive, Harmonic, Pulley};
 use crate::friction::{Frictionless, Law};
-use crate::layout::{Arc, Layout, LayoutError};
+use crate::layout::{self, Layout, LayoutError};
 use crate::profile::Profile;
 
 /// Stretch beyond which a belt is taken to be the wrong one.
@@ -29,6 +31,9 @@ pub enum AssemblyError {
     /// The pulleys do not make a belt path.
     #[error(transparent)]
     Layout(#[from] LayoutError),
+    /// The belt's joint cannot be made.
+    #[error(transparent)]
+    Joint(#[from] ConstraintError),
     /// The belt is longer than its path.
     #[error(
         "the belt is too long: unstretched {length:.6} m, but the path around the pulleys is only {path:.6} m ({excess:.6} m less); a length below {path:.6} m fits"
@@ -210,51 +215,49 @@ fn softened_section(belt: &Belt) -> PlanarSection {
 }
 
 impl<E: BeltElementType> Assembly<E> {
-    /// Puts `drive` together.
+    /// Puts `drive` together, with the belt's ends in one node.
     pub fn new(drive: &Drive) -> Result<Self, AssemblyError> {
         let belt = &drive.belt;
         let layout = Layout::of(drive)?;
         let mounting = Mounting::new(belt, &layout)?;
         let count = belt.elements;
         let length = mounting.length / count as f64;
-        let elements = vec![E::for_belt(belt, length); count];
-        let points = NonZeroUsize::new(drive.contact.points).unwrap_or(NonZeroUsize::MIN);
-        let contact = BeltContact::new(
-            &elements,
-            drive
-                .pulley
-                .iter()
-                .zip(&layout.arcs)
-                .map(|(pulley, arc)| contact_pulley(drive, pulley, arc))
-                .collect(),
-            Penalty {
-                stiffness: drive.contact.stiffness,
-                damping: drive.contact.damping,
-                clamp: drive.contact.clamp_normal_force,
-            },
-            Rule::gauss(points),
-        );
-        let mesh = Mesh::closed(elements);
-        let scales = mesh.scales(length, belt.thickness);
-        let mut system = System::new(
-            mesh,
-            scales,
-            drive.pulley.iter().map(rotor).collect(),
-            contact,
-        );
-        if drive.gravity != [0.0, 0.0] {
-            system.add_gravity(&drive.gravity);
-        }
-        let motion = on_path::<E>(drive, &layout, &mounting);
-        let warnings = coarse_mesh(drive, &mounting).into_iter().collect();
+        let mesh = Mesh::closed(vec![E::for_belt(belt, length); count]);
         Ok(Self {
-            system,
-            motion,
+            system: system(drive, &layout, mesh),
+            motion: on_path::<E>(drive, &layout, &mounting),
+            warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
             layout,
             mounting,
-            warnings,
             element_start: (0..count).map(|i| i as f64 * length).collect(),
         })
+    }
+
+    /// Gives the last element an end of its own, tied to the first node by multipliers.
+    pub fn open_joint(&mut self, drive: &Drive) -> Result<(), AssemblyError> {
+        let elements = self.system.mesh().elements().to_vec();
+        let open = system(drive, &self.layout, Mesh::open(elements));
+        let structure = open.structure();
+        let end = structure.chain() - E::NODE_DOF;
+        let joint = (0..E::NODE_DOF)
+            .map(|i| LinearEquation {
+                name: "joint of the belt's ends".to_owned(),
+                terms: vec![(end + i, 1.0), (i, -1.0)],
+                value: Arc::new(Constant(0.0)),
+            })
+            .collect();
+        let driven: Vec<usize> = open.prescribed().iter().map(|(i, _)| *i).collect();
+        let form = ConstraintForm::Multipliers;
+        let joint = ConstraintSet::new(structure, &driven, joint, Vec::new(), form)?;
+        self.system = open.constrained(joint);
+        let mut motion = Motion::zero(self.system.structure().size());
+        let (belt, rigid) = self.motion.q.split_at(end);
+        motion.q[..end].copy_from_slice(belt);
+        motion.q[end..end + E::NODE_DOF].copy_from_slice(&belt[..E::NODE_DOF]);
+        let rotors = end + E::NODE_DOF;
+        motion.q[rotors..rotors + rigid.len()].copy_from_slice(rigid);
+        self.motion = motion;
+        Ok(())
     }
 
     /// Lets the friction of `drive` act.
@@ -265,6 +268,33 @@ impl<E: BeltElementType> Assembly<E> {
             .map(|pulley| Law::new(drive.friction_on(pulley), pulley.grip()));
         self.system.law.set_friction(laws);
     }
+}
+
+/// The mechanical system of a belt of the given mesh, all pulleys frictionless.
+fn system<E: BeltElementType>(
+    drive: &Drive,
+    layout: &Layout,
+    mesh: Mesh<E>,
+) -> System<E, BeltContact> {
+    let belt = &drive.belt;
+    let points = NonZeroUsize::new(drive.contact.points).unwrap_or(NonZeroUsize::MIN);
+    let pulleys = (drive.pulley.iter().zip(&layout.arcs))
+        .map(|(pulley, arc)| contact_pulley(drive, pulley, arc))
+        .collect();
+    let penalty = Penalty {
+        stiffness: drive.contact.stiffness,
+        damping: drive.contact.damping,
+        clamp: drive.contact.clamp_normal_force,
+    };
+    let contact = BeltContact::new(&mesh, pulleys, penalty, Rule::gauss(points));
+    let length = mesh.elements().first().map_or(0.0, LineElement::length);
+    let scales = mesh.scales(length, belt.thickness);
+    let rotors = drive.pulley.iter().map(rotor).collect();
+    let mut system = System::new(mesh, scales, rotors, contact);
+    if drive.gravity != [0.0, 0.0] {
+        system.add_gravity(&drive.gravity);
+    }
+    system
 }
 
 /// The belt evenly stretched on its path, at rest.
@@ -288,7 +318,7 @@ fn on_path<E: LineElement>(drive: &Drive, layout: &Layout, mounting: &Mounting) 
     motion
 }
 
-fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &Arc) -> ContactPulley {
+fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &layout::Arc) -> ContactPulley {
     ContactPulley {
         center: pulley.center,
         radius: pulley.radius,
@@ -296,13 +326,16 @@ fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &Arc) -> ContactPulley {
         // The section's slope points to the left of the path: to the centre of a pulley that the path
         // turns about counter-clockwise.
         height: drive.pitch_offset() * arc.sweep.signum(),
-        torque: pulley.torque.clone(),
+        external: pulley.external_torque(),
     }
 }
 
 fn rotor(pulley: &Pulley) -> RigidCoordinate {
     let motion: Option<Box<dyn system::Motion>> = match (&pulley.speed, &pulley.angle) {
-        (Some(speed), _) => Some(Box::new(BySpeed(speed.clone()))),
+        (Some(speed), _) => Some(Box::new(BySpeed {
+            mean: speed.clone(),
+            harmonics: pulley.irregularity.clone(),
+        })),
         (None, Some(angle)) => Some(Box::new(ByAngle(angle.clone()))),
         (None, None) => None,
     };
@@ -313,16 +346,37 @@ fn rotor(pulley: &Pulley) -> RigidCoordinate {
     }
 }
 
-/// A rotor driven at a prescribed speed from angle zero.
+/// A rotor driven at a prescribed speed from angle zero. With the mean speed `w` and its angle `a`,
+///
+/// ```text
+/// angle = a + sum (A_k / k) [sin(k a + phi_k) - sin phi_k]
+/// speed = w [1 + sum A_k cos(k a + phi_k)]
+/// ```
 #[derive(Debug)]
-struct BySpeed(Profile);
+struct BySpeed {
+    mean: Profile,
+    harmonics: Vec<Harmonic>,
+}
 
 impl system::Motion for BySpeed {
     fn at(&self, time: f64) -> [f64; 3] {
+        let (a, w) = (self.mean.integral(time), self.mean.value(time));
+        let (mut angle, mut factor, mut slope) = (a, 1.0, 0.0);
+        for Harmonic {
+            order,
+            amplitude,
+            phase,
+        } in &self.harmonics
+        {
+            let (sine, cosine) = (order * a + phase).sin_cos();
+            angle += amplitude / order * (sine - phase.sin());
+            factor += amplitude * cosine;
+            slope -= amplitude * order * sine;
+        }
         [
-            self.0.integral(time),
-            self.0.value(time),
-            self.0.derivative(time),
+            angle,
+            w * factor,
+            self.mean.derivative(time) * factor + w * w * slope,
         ]
     }
 }

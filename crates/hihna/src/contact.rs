@@ -27,6 +27,7 @@ mod table;
 
 use ancf::element::LineElement;
 use ancf::linear::BorderedMatrix;
+use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 use ancf::scalar::dispatch;
 use ancf::system::{ForceLaw, State};
@@ -34,7 +35,7 @@ use ancf::system::{ForceLaw, State};
 pub use point::PointContact;
 
 use crate::friction::Law;
-use crate::profile::Profile;
+use crate::load::ExternalTorque;
 use memory::Bristles;
 use point::Meeting;
 use table::{LANES, Line, MAX_VECTORS, Table};
@@ -51,8 +52,8 @@ pub struct ContactPulley {
     /// Height [m] over the belt's centre line of the line that touches the pulley, along the section's
     /// slope: 0 for the centre line, plus or minus half the thickness for the faces.
     pub height: f64,
-    /// External torque [N m].
-    pub torque: Profile,
+    /// Torque from outside of the drive.
+    pub external: ExternalTorque,
 }
 
 /// The penalty law in the normal direction.
@@ -104,7 +105,7 @@ pub struct BeltPoint {
     pub contact: Option<(usize, PointContact<f64>)>,
 }
 
-/// Contact of a closed belt with pulleys, and the external torques on the pulleys. Pulley `p` turns
+/// Contact of a belt with pulleys, and the external torques on the pulleys. Pulley `p` turns
 /// with rigid coordinate `p`.
 #[derive(Clone, Debug)]
 pub struct BeltContact {
@@ -112,6 +113,8 @@ pub struct BeltContact {
     pub pulleys: Vec<ContactPulley>,
     penalty: Penalty,
     rule: Rule,
+    /// Whether the last element ends in the first node, or in one of its own that joins it.
+    closed: bool,
     /// Coordinates and vectors of a node.
     node_dof: usize,
     node_vectors: usize,
@@ -134,10 +137,10 @@ pub struct BeltContact {
 }
 
 impl BeltContact {
-    /// Contact of a belt of `elements` (closed) with `pulleys`, integrated by `rule` along each.
+    /// Contact of a belt of the elements of `mesh` with `pulleys`, integrated by `rule` along each.
     #[must_use]
     pub fn new<E: LineElement>(
-        elements: &[E],
+        mesh: &Mesh<E>,
         pulleys: Vec<ContactPulley>,
         penalty: Penalty,
         rule: Rule,
@@ -148,7 +151,7 @@ impl BeltContact {
             .map(|pulley| {
                 heights
                     .iter()
-                    .position(|height| *height == pulley.height)
+                    .position(|height| height.to_bits() == pulley.height.to_bits())
                     .unwrap_or_else(|| {
                         heights.push(pulley.height);
                         heights.len() - 1
@@ -161,7 +164,8 @@ impl BeltContact {
         heights.push(0.0);
         let mut tables: Vec<Table> = Vec::new();
         let mut known: Vec<&E> = Vec::new();
-        let kind_of = elements
+        let kind_of = mesh
+            .elements()
             .iter()
             .map(|element| {
                 known
@@ -180,6 +184,7 @@ impl BeltContact {
             pulleys,
             penalty,
             rule,
+            closed: mesh.is_closed(),
             node_dof: E::NODE_DOF,
             node_vectors: E::NODE_VECTORS,
             line,
@@ -232,7 +237,7 @@ impl BeltContact {
     }
 
     fn rotors(&self) -> usize {
-        self.kind_of.len() * self.node_dof
+        (self.kind_of.len() + usize::from(!self.closed)) * self.node_dof
     }
 
     /// First coordinate of the node of local vector `vector` of `element`.
@@ -240,7 +245,7 @@ impl BeltContact {
     fn coordinate(&self, element: usize, vector: usize) -> usize {
         let node = if vector < self.node_vectors {
             element
-        } else if element + 1 == self.kind_of.len() {
+        } else if self.closed && element + 1 == self.kind_of.len() {
             0
         } else {
             element + 1
@@ -332,7 +337,8 @@ impl ForceLaw for BeltContact {
         });
         let rotors = self.rotors();
         for (p, pulley) in self.pulleys.iter().enumerate() {
-            force[rotors + p] += pulley.torque.value(state.time);
+            let speed = state.v[rotors + p];
+            force[rotors + p] += pulley.external.value(state.time, speed);
         }
     }
 
@@ -353,6 +359,10 @@ impl ForceLaw for BeltContact {
             matrix,
         });
         self.local = local;
+        for (p, pulley) in self.pulleys.iter().enumerate() {
+            let slope = pulley.external.derivative(state.v[self.rotors() + p]);
+            matrix.add_corner(p, p, -velocity_factor * slope);
+        }
     }
 
     fn accept(&mut self, state: State<'_>) {

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
+use crate::load::{ExternalTorque, Load};
 use crate::profile::{self, Profile};
 use crate::units;
 
@@ -92,10 +93,24 @@ pub struct Belt {
     #[serde(default)]
     #[schemars(schema_with = "units::time", extend("minimum" = 0.0))]
     pub damping_time: f64,
+    /// How the belt's ends are joined.
+    #[serde(default)]
+    pub joint: Joint,
     /// Where the first node starts: path length from mid-wrap of the first pulley [m].
     #[serde(default)]
     #[schemars(schema_with = "units::length")]
     pub first_node: f64,
+}
+
+/// How the belt's ends are joined to a loop. Both give the same motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Joint {
+    /// The last element ends in the first node.
+    #[default]
+    Shared,
+    /// The last element has an end of its own, tied to the first node by Lagrange multipliers.
+    Multipliers,
 }
 
 /// Contact along the belt.
@@ -235,7 +250,7 @@ pub struct Pulley {
     /// Angle of its groove [rad], both flanks together: the belt wedges in, and friction acts
     /// `1 / sin(angle / 2)` times. Absent: a flat face.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(schema_with = "units::angle", extend("exclusiveMinimum" = 0.0, "maximum" = 3.141_592_653_589_793))]
+    #[schemars(schema_with = "units::angle", extend("exclusiveMinimum" = 0.0, "maximum" = std::f64::consts::PI))]
     pub groove_angle: Option<f64>,
     /// Prescribed speed [rad/s], positive counter-clockwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -253,12 +268,43 @@ pub struct Pulley {
     #[serde(default = "zero_profile")]
     #[schemars(schema_with = "profile::torque")]
     pub torque: Profile,
+    /// External torque that depends on the speed, beside `torque`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<Load>,
+    /// Irregularity of the prescribed `speed`, order by order of the pulley's revolution.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub irregularity: Vec<Harmonic>,
+}
+
+/// A harmonic of a prescribed speed: with the mean speed `w(t)` and its angle `a(t)` the pulley turns at
+/// `w (1 + sum amplitude cos(order a + phase))`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Harmonic {
+    /// Periods per revolution [-]: 2 for a four-cylinder four-stroke engine.
+    #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
+    pub order: f64,
+    /// Amplitude relative to the mean speed [-].
+    #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
+    pub amplitude: f64,
+    /// Phase at angle zero [rad].
+    #[serde(default)]
+    #[schemars(schema_with = "units::angle")]
+    pub phase: f64,
 }
 
 impl Pulley {
     /// Whether the pulley's motion is prescribed.
     pub fn is_driver(&self) -> bool {
         self.speed.is_some() || self.angle.is_some()
+    }
+
+    /// All that acts on it from outside of the drive.
+    pub fn external_torque(&self) -> ExternalTorque {
+        ExternalTorque {
+            by_time: self.torque.clone(),
+            by_speed: self.load.clone(),
+        }
     }
 
     /// How many times its surface multiplies friction: 1 on a flat face, more in a groove.

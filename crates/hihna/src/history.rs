@@ -142,6 +142,20 @@ impl History {
         (count > 0).then(|| sum / count as f64)
     }
 
+    /// Standard deviation of column `name` over times in `[from, to]`, by the rows.
+    #[must_use]
+    pub fn deviation(&self, name: &str, from: f64, to: f64) -> Option<f64> {
+        let index = self.columns.iter().position(|c| c == name)?;
+        let mean = self.mean(name, from, to)?;
+        let (sum, count) = self
+            .rows()
+            .filter(|row| row[0] >= from && row[0] <= to)
+            .fold((0.0, 0_usize), |(sum, n), row| {
+                (sum + (row[index] - mean).powi(2), n + 1)
+            });
+        (count > 0).then(|| (sum / count as f64).sqrt())
+    }
+
     /// Mean of the product of two columns over times in `[from, to]`, by the rows.
     #[must_use]
     pub fn mean_product(&self, a: &str, b: &str, from: f64, to: f64) -> Option<f64> {

@@ -22,11 +22,21 @@ mod shape;
 
 pub use document::{Place, Source};
 pub use overrides::Override;
+pub(crate) use problem::nearest;
 pub use problem::{FieldPath, InputError, InputErrors, Problem, Segment};
 
 use check::Checker;
 use document::Node;
 use shape::Shape;
+
+/// A checked drive and the text that it came from, so that what is found to be wrong with it later
+/// is told with the line of the file, too.
+#[derive(Clone, Debug)]
+pub struct DriveFile {
+    /// The drive.
+    pub drive: Drive,
+    document: Node,
+}
 
 /// Reads a drive from text; `source_name` is what errors call it, usually the file's path.
 ///
@@ -40,55 +50,76 @@ use shape::Shape;
 /// # Ok::<(), hihna::input::InputErrors>(())
 /// ```
 pub fn parse(source_name: &str, text: &str, overrides: &[Override]) -> Result<Drive, InputErrors> {
-    let mut document = document::parse(source_name, text)?;
-    let shape = Shape::of_drive();
-    let mut checker = Checker::default();
-    for change in overrides {
-        if let Err(error) = change.apply(shape, &mut document) {
-            checker.structural.push(*error);
+    DriveFile::parse(source_name, text, overrides).map(|file| file.drive)
+}
+
+impl DriveFile {
+    /// As [`parse`].
+    pub fn parse(
+        source_name: &str,
+        text: &str,
+        overrides: &[Override],
+    ) -> Result<Self, InputErrors> {
+        let mut document = document::parse(source_name, text)?;
+        let shape = Shape::of_drive();
+        let mut checker = Checker::default();
+        for change in overrides {
+            if let Err(error) = change.apply(shape, &mut document) {
+                checker.structural.push(*error);
+            }
+        }
+        let value = checker.check(shape, &document, &FieldPath::default());
+        let mut problems = checker.ranges;
+        let drive = match value {
+            Some(value) if checker.structural.is_empty() => match deserialize(value) {
+                Ok(drive) => {
+                    problems.extend(rules::problems(&drive));
+                    if problems.is_empty() {
+                        problems.extend(rules::mounting(&drive));
+                    }
+                    Some(drive)
+                }
+                Err(problem) => {
+                    problems.push(problem);
+                    None
+                }
+            },
+            _ => None,
+        };
+        let mut errors = checker.structural;
+        errors.extend(problems.into_iter().map(|problem| document.locate(problem)));
+        match drive {
+            Some(drive) if errors.is_empty() => Ok(Self { drive, document }),
+            _ => Err(InputErrors::sorted(errors)),
         }
     }
-    let value = checker.check(shape, &document, &FieldPath::default());
-    let mut problems = checker.ranges;
-    let drive = match value {
-        Some(value) if checker.structural.is_empty() => match deserialize(value) {
-            Ok(drive) => {
-                problems.extend(rules::problems(&drive));
-                if problems.is_empty() {
-                    problems.extend(rules::mounting(&drive));
-                }
-                Some(drive)
-            }
-            Err(problem) => {
-                problems.push(problem);
-                None
-            }
-        },
-        _ => None,
-    };
-    let mut errors = checker.structural;
-    errors.extend(problems.into_iter().map(|problem| document.locate(problem)));
-    match drive {
-        Some(drive) if errors.is_empty() => Ok(drive),
-        _ => Err(InputErrors::sorted(errors)),
+
+    /// As [`load`].
+    pub fn load(path: &Path, overrides: &[Override]) -> Result<Self, InputErrors> {
+        let name = path.display().to_string();
+        let text = fs::read_to_string(path).map_err(|error| {
+            let problem = Problem::new(
+                FieldPath::default(),
+                format!("cannot read `{name}`: {error}"),
+            )
+            .help("give the path of a drive file, or none to use the built-in two-pulley drive");
+            InputErrors::from(InputError {
+                problem,
+                place: None,
+            })
+        })?;
+        Self::parse(&name, &text, overrides)
+    }
+
+    /// Adds to a problem of the drive where it was written.
+    pub fn locate(&self, problem: Problem) -> InputError {
+        self.document.locate(problem)
     }
 }
 
 /// Reads a drive file.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Drive, InputErrors> {
-    let name = path.display().to_string();
-    let text = fs::read_to_string(path).map_err(|error| {
-        let problem = Problem::new(
-            FieldPath::default(),
-            format!("cannot read `{name}`: {error}"),
-        )
-        .help("give the path of a drive file, or none to use the built-in two-pulley drive");
-        InputErrors::from(InputError {
-            problem,
-            place: None,
-        })
-    })?;
-    parse(&name, &text, overrides)
+    DriveFile::load(path, overrides).map(|file| file.drive)
 }
 
 /// The JSON schema of drive files, for editors and programs.

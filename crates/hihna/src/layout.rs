@@ -28,8 +28,10 @@ use std::f64::consts::{PI, TAU};
 use crate::drive::{Drive, Pulley, Wrap};
 
 mod error;
+mod tangent;
 
 pub use error::LayoutError;
+pub(crate) use tangent::{Circle, Tangent, sweep, turn};
 
 /// A wrap angle below this is no contact [rad]: a micrometre on a pulley of a kilometre.
 const SMALLEST_WRAP: f64 = 1.0e-9;
@@ -157,32 +159,36 @@ impl Layout {
     /// The path for a given sense, or what is wrong with it.
     fn walk(pulleys: &[Pulley], sense: f64) -> Result<Self, LayoutError> {
         let count = pulleys.len();
-        let side = |i: usize| sense * wrap_sign(pulleys[i].wrap);
-        let tangents: Vec<Tangent> = (0..count)
-            .map(|i| {
-                Tangent::between(
-                    &pulleys[i],
-                    side(i),
-                    &pulleys[(i + 1) % count],
-                    side((i + 1) % count),
-                )
+        let circles: Vec<_> = pulleys
+            .iter()
+            .map(|pulley| Circle {
+                center: pulley.center,
+                radius: pulley.radius,
+                side: sense * wrap_sign(pulley.wrap),
             })
+            .collect();
+        let tangents: Vec<_> = (0..count)
+            .map(|i| Tangent::between(&circles[i], &circles[(i + 1) % count]))
             .collect();
         let sweeps = (0..count)
             .map(|i| {
-                sweep(
-                    &pulleys[i],
-                    side(i),
-                    tangents[(i + count - 1) % count].direction,
-                    tangents[i].direction,
-                )
+                let incoming = tangents[(i + count - 1) % count].direction;
+                let turn = turn(incoming, tangents[i].direction);
+                if turn.abs() < SMALLEST_WRAP {
+                    return Err(LayoutError::NoContact {
+                        pulley: pulleys[i].name.clone(),
+                        wrap: pulleys[i].wrap,
+                        turn,
+                    });
+                }
+                Ok(sweep(turn, circles[i].side))
             })
             .collect::<Result<Vec<_>, _>>()?;
         check_path(pulleys, &tangents, &sweeps, sense)?;
         Ok(Self::assemble(pulleys, &tangents, &sweeps, sense))
     }
 
-    fn assemble(pulleys: &[Pulley], tangents: &[Tangent], sweeps: &[f64], sense: f64) -> Self {
+    fn assemble(pulleys: &[Pulley], tangents: &[Tangent<f64>], sweeps: &[f64], sense: f64) -> Self {
         let count = pulleys.len();
         let mut arcs = Vec::with_capacity(count);
         let mut spans = Vec::with_capacity(count);
@@ -259,43 +265,6 @@ impl Arc {
     }
 }
 
-/// A directed common tangent of two pulleys.
-struct Tangent {
-    start: [f64; 2],
-    end: [f64; 2],
-    direction: [f64; 2],
-    length: f64,
-}
-
-impl Tangent {
-    /// From pulley `a` to pulley `b`, which the belt turns about in the senses `side_a` and
-    /// `side_b`. The circles do not overlap, so |h| <= R_A + R_B < |D|.
-    fn between(a: &Pulley, side_a: f64, b: &Pulley, side_b: f64) -> Self {
-        let d = [b.center[0] - a.center[0], b.center[1] - a.center[1]];
-        let h = side_b * b.radius - side_a * a.radius;
-        let distance = d[0].hypot(d[1]);
-        let length = ((distance - h) * (distance + h)).sqrt();
-        let square = distance * distance;
-        let direction = [
-            (d[0] * length + d[1] * h) / square,
-            (d[1] * length - d[0] * h) / square,
-        ];
-        let touch = |pulley: &Pulley, side: f64| {
-            let offset = side * pulley.radius;
-            [
-                pulley.center[0] + offset * direction[1],
-                pulley.center[1] - offset * direction[0],
-            ]
-        };
-        Self {
-            start: touch(a, side_a),
-            end: touch(b, side_b),
-            direction,
-            length,
-        }
-    }
-}
-
 fn wrap_sign(wrap: Wrap) -> f64 {
     match wrap {
         Wrap::Inside => 1.0,
@@ -343,35 +312,12 @@ fn check_pulleys(pulleys: &[Pulley]) -> Result<(), LayoutError> {
     Ok(())
 }
 
-/// The wrap angle: from the incoming to the outgoing direction, in the sense `side`.
-fn sweep(
-    pulley: &Pulley,
-    side: f64,
-    incoming: [f64; 2],
-    outgoing: [f64; 2],
-) -> Result<f64, LayoutError> {
-    let turn =
-        cross(incoming, outgoing).atan2(incoming[0] * outgoing[0] + incoming[1] * outgoing[1]);
-    if turn.abs() < SMALLEST_WRAP {
-        return Err(LayoutError::NoContact {
-            pulley: pulley.name.clone(),
-            wrap: pulley.wrap,
-            turn,
-        });
-    }
-    Ok(if turn * side > 0.0 {
-        turn
-    } else {
-        turn + side * TAU
-    })
-}
-
 /// The path must be a simple loop: its total turning one full turn, no span blocked, none crossing
 /// another. A pulley that the belt only reaches by running right around it is on the wrong side of
 /// the belt.
 fn check_path(
     pulleys: &[Pulley],
-    tangents: &[Tangent],
+    tangents: &[Tangent<f64>],
     sweeps: &[f64],
     sense: f64,
 ) -> Result<(), LayoutError> {
@@ -408,7 +354,7 @@ fn check_path(
     }
 }
 
-fn check_crossings(pulleys: &[Pulley], tangents: &[Tangent]) -> Result<(), LayoutError> {
+fn check_crossings(pulleys: &[Pulley], tangents: &[Tangent<f64>]) -> Result<(), LayoutError> {
     let names = |i: usize| {
         (
             pulleys[i].name.clone(),
@@ -427,8 +373,8 @@ fn check_crossings(pulleys: &[Pulley], tangents: &[Tangent]) -> Result<(), Layou
     Ok(())
 }
 
-fn spans_cross(a: &Tangent, b: &Tangent) -> bool {
-    let apart = |line: &Tangent, other: &Tangent| {
+fn spans_cross(a: &Tangent<f64>, b: &Tangent<f64>) -> bool {
+    let apart = |line: &Tangent<f64>, other: &Tangent<f64>| {
         let offset =
             |p: [f64; 2]| cross(line.direction, [p[0] - line.start[0], p[1] - line.start[1]]);
         offset(other.start) * offset(other.end) < 0.0
@@ -437,7 +383,7 @@ fn spans_cross(a: &Tangent, b: &Tangent) -> bool {
 }
 
 /// No span may run through a pulley that it does not belong to.
-fn check_spans(pulleys: &[Pulley], tangents: &[Tangent]) -> Result<(), LayoutError> {
+fn check_spans(pulleys: &[Pulley], tangents: &[Tangent<f64>]) -> Result<(), LayoutError> {
     let count = pulleys.len();
     for (i, span) in tangents.iter().enumerate() {
         let next = (i + 1) % count;

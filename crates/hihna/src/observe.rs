@@ -153,7 +153,9 @@ impl Observer {
         let external = if prescribed {
             inertia * motion.a[at] - self.contacts[p].torque
         } else {
-            system.law.pulleys[p].torque.value(motion.time)
+            system.law.pulleys[p]
+                .external
+                .value(motion.time, motion.v[at])
         };
         (motion.q[at], motion.v[at], external)
     }

@@ -14,7 +14,7 @@ use ancf::system::Mechanics;
 use thiserror::Error;
 
 use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, Warning};
-use crate::drive::{BeltElement, Drive};
+use crate::drive::{BeltElement, Drive, Joint};
 use crate::history::History;
 use crate::layout::Layout;
 use crate::observe::ProfileRow;
@@ -140,11 +140,17 @@ pub enum RunError {
 }
 
 impl RunError {
-    fn start(drive: &Drive, layout: &Layout, q: &[f64], dof: usize, cause: StaticsError) -> Self {
+    fn start(
+        drive: &Drive,
+        layout: &Layout,
+        q: &[f64],
+        belt: (usize, usize),
+        cause: StaticsError,
+    ) -> Self {
         match cause {
             StaticsError::NotConverged { coordinate, .. }
             | StaticsError::Singular { coordinate } => Self::Start {
-                place: place(drive, layout, q, coordinate, dof),
+                place: place(drive, layout, q, coordinate, belt),
                 cause,
             },
             StaticsError::Stopped { .. } => Self::Stopped { time: 0.0 },
@@ -172,6 +178,9 @@ fn run<E: BeltElementType>(
     let end = drive.run.end_time;
     let mut assembly = Assembly::<E>::new(drive)?;
     let settled = settle_on_pulleys(drive, &mut assembly, observer)?;
+    if drive.belt.joint == Joint::Multipliers {
+        assembly.open_joint(drive)?;
+    }
     assembly.release(drive);
     let control = control::control(drive, &assembly.mounting);
 
@@ -210,9 +219,10 @@ fn run<E: BeltElementType>(
             ..
         } = &cause;
         let (layout, coordinate) = (&assembly.layout, failure.coordinate);
+        let belt = (assembly.system.structure().chain(), E::NODE_DOF);
         RunError::Step {
             time: *time,
-            place: place(drive, layout, &motion.q, coordinate, E::NODE_DOF),
+            place: place(drive, layout, &motion.q, coordinate, belt),
             cause,
         }
     })?;
@@ -273,6 +283,7 @@ fn settle_on_pulleys<E: BeltElementType>(
     )
     .map_err(|cause| {
         let (layout, q) = (&assembly.layout, &assembly.motion.q);
-        RunError::start(drive, layout, q, E::NODE_DOF, cause)
+        let belt = (assembly.system.structure().chain(), E::NODE_DOF);
+        RunError::start(drive, layout, q, belt, cause)
     })
 }

@@ -34,6 +34,8 @@ pub struct Summary {
     pub end: Report,
     /// Means over the last tenth of the run.
     pub steady: Report,
+    /// Standard deviations over the same time: how steady the means are.
+    pub scatter: Scatter,
     /// The balances.
     pub audit: Audit,
     /// Things to know.
@@ -119,6 +121,20 @@ pub struct PulleyReport {
     pub slip_speed: f64,
     /// Loss of surface speed against the first driver [-].
     pub speed_loss: f64,
+    /// Wrap angle of the path on the rigid pulleys [rad].
+    pub wrap_angle: f64,
+    /// Angle in contact [rad].
+    pub contact_angle: f64,
+    /// Angle of it where friction is exhausted [rad].
+    pub slip_angle: f64,
+    /// True axial force where the belt runs on [N].
+    pub tension_in: f64,
+    /// True axial force where the belt runs off [N].
+    pub tension_out: f64,
+    /// Power that the belt gives to the pulley [W].
+    pub power: f64,
+    /// Power that friction takes on the pulley [W].
+    pub friction_loss: f64,
 }
 
 /// A span at one time, or on average.
@@ -128,6 +144,43 @@ pub struct SpanReport {
     pub tension: f64,
     /// Engineering strain [-].
     pub strain: f64,
+    /// Speed along the belt, in the order of the pulleys [m/s].
+    pub speed: f64,
+    /// Deflection at mid-span [m].
+    pub deflection: f64,
+}
+
+/// Standard deviations in time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Scatter {
+    /// By pulley.
+    pub pulley: Named<PulleyScatter>,
+    /// By span.
+    pub span: Named<SpanScatter>,
+}
+
+/// Standard deviations of a pulley.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PulleyScatter {
+    /// Speed [rad/s].
+    pub speed: f64,
+    /// Torque of the belt on the pulley [N m].
+    pub torque: f64,
+    /// Force of the belt on the pulley [N].
+    pub hub_force: [f64; 2],
+    /// Mean velocity of the belt against the surface [m/s].
+    pub slip_speed: f64,
+}
+
+/// Standard deviations of a span.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SpanScatter {
+    /// True axial force [N].
+    pub tension: f64,
+    /// Engineering strain [-].
+    pub strain: f64,
+    /// Deflection at mid-span [m].
+    pub deflection: f64,
 }
 
 /// The balances.
@@ -179,8 +232,9 @@ impl Summary {
                 iterations: outcome.start.iterations,
                 path_tension: outcome.mounting.tension,
             },
-            end: report(drive, &outcome.history, last, last),
-            steady: report(drive, &outcome.history, (1.0 - STEADY_PART) * end, end),
+            end: report(drive, outcome, last, last),
+            steady: report(drive, outcome, (1.0 - STEADY_PART) * end, end),
+            scatter: scatter(drive, &outcome.history, (1.0 - STEADY_PART) * end, end),
             audit: Audit {
                 energy_input: outcome.audit.energy_input,
                 energy_residual: outcome.audit.energy_residual,
@@ -194,7 +248,8 @@ impl Summary {
 }
 
 /// Means over the rows with times in `[from, to]`; a single row if both are its time.
-fn report(drive: &Drive, history: &History, from: f64, to: f64) -> Report {
+fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
+    let history = &outcome.history;
     let mean = |name: &str| history.mean(name, from, to).unwrap_or(f64::NAN);
     let names: Vec<&str> = drive.pulley.iter().map(|p| p.name.as_str()).collect();
     let reference = drive
@@ -207,7 +262,8 @@ fn report(drive: &Drive, history: &History, from: f64, to: f64) -> Report {
     let pulley = drive
         .pulley
         .iter()
-        .map(|p| {
+        .zip(&outcome.layout.arcs)
+        .map(|(p, arc)| {
             let of = |what: &str| mean(&format!("{}.{what}", p.name));
             let speed = of("speed");
             let speed_loss = if reference > 0.0 {
@@ -222,17 +278,25 @@ fn report(drive: &Drive, history: &History, from: f64, to: f64) -> Report {
                 hub_force: [of("hub_force_x"), of("hub_force_y")],
                 slip_speed: of("slip_speed"),
                 speed_loss,
+                wrap_angle: arc.sweep.abs(),
+                contact_angle: of("contact_angle"),
+                slip_angle: of("slip_angle"),
+                tension_in: of("tension_in"),
+                tension_out: of("tension_out"),
+                power: of("power"),
+                friction_loss: of("friction_loss"),
             };
             (p.name.clone(), report)
         })
         .collect();
-    let span = (0..names.len())
-        .map(|i| {
-            let name = format!("{}-{}", names[i], names[(i + 1) % names.len()]);
+    let span = span_names(drive)
+        .map(|name| {
             let of = |what: &str| mean(&format!("{name}.{what}"));
             let report = SpanReport {
                 tension: of("tension"),
                 strain: of("strain"),
+                speed: of("speed"),
+                deflection: of("deflection"),
             };
             (name, report)
         })
@@ -269,4 +333,51 @@ fn report(drive: &Drive, history: &History, from: f64, to: f64) -> Report {
         power_out,
         power_lost: lost,
     }
+}
+
+/// Standard deviations over the rows with times in `[from, to]`.
+fn scatter(drive: &Drive, history: &History, from: f64, to: f64) -> Scatter {
+    let of = |name: &str, what: &str| {
+        history
+            .deviation(&format!("{name}.{what}"), from, to)
+            .unwrap_or(f64::NAN)
+    };
+    let pulley = drive
+        .pulley
+        .iter()
+        .map(|p| {
+            let of = |what: &str| of(&p.name, what);
+            let scatter = PulleyScatter {
+                speed: of("speed"),
+                torque: of("torque"),
+                hub_force: [of("hub_force_x"), of("hub_force_y")],
+                slip_speed: of("slip_speed"),
+            };
+            (p.name.clone(), scatter)
+        })
+        .collect();
+    let span = span_names(drive)
+        .map(|name| {
+            let scatter = SpanScatter {
+                tension: of(&name, "tension"),
+                strain: of(&name, "strain"),
+                deflection: of(&name, "deflection"),
+            };
+            (name, scatter)
+        })
+        .collect();
+    Scatter {
+        pulley: Named(pulley),
+        span: Named(span),
+    }
+}
+
+/// Names of the spans, `from-to`, in the order of the pulleys.
+fn span_names(drive: &Drive) -> impl Iterator<Item = String> {
+    let next = drive.pulley.iter().cycle().skip(1);
+    drive
+        .pulley
+        .iter()
+        .zip(next)
+        .map(|(from, to)| format!("{}-{}", from.name, to.name))
 }

@@ -300,6 +300,16 @@ pub(crate) fn point(generator: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "array", "items": length(generator), "minItems": 2, "maxItems": 2 })
 }
 
+/// Schema of a list of angular velocities [rad/s].
+pub(crate) fn angular_velocities(generator: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "type": "array", "items": angular_velocity(generator) })
+}
+
+/// Schema of a list of torques [N m].
+pub(crate) fn torques(generator: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "type": "array", "items": torque(generator) })
+}
+
 /// Schema of an acceleration in the plane [m/s²].
 pub(crate) fn acceleration_vector(generator: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "array", "items": acceleration(generator), "minItems": 2, "maxItems": 2 })

@@ -12,6 +12,7 @@ use std::num::NonZeroUsize;
 use ancf::element::BeltBeam2;
 use ancf::linear::{BorderedMatrix, Structure};
 use ancf::material::Isotropic;
+use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 use ancf::section::PlanarSection;
 use ancf::system::{ForceLaw, State};
@@ -68,10 +69,10 @@ fn contact(friction: Law, clamp: bool, height: f64) -> BeltContact {
         radius,
         friction,
         height,
-        torque: Profile::Constant(torque),
+        external: Profile::Constant(torque).into(),
     };
     let mut contact = BeltContact::new(
-        &vec![element; ELEMENTS],
+        &Mesh::closed(vec![element; ELEMENTS]),
         vec![
             pulley([0.0, 0.0], RADIUS - height, height, 0.0),
             pulley([RADIUS + 0.048, 0.01], 0.05 - height, -height, -0.7),
@@ -362,7 +363,7 @@ fn forces_and_moments_of_belt_and_pulleys_cancel() {
         "{on_belt} on the belt, {on_pulleys} on the pulleys"
     );
     for (p, total) in totals.iter().enumerate() {
-        let external = law.pulleys[p].torque.value(0.0);
+        let external = law.pulleys[p].external.value(0.0, 0.0);
         assert!((forces[CHAIN + p] - external - total.torque).abs() <= 1.0e-12 * scale);
     }
 }

@@ -105,7 +105,7 @@ fn assert_audit(outcome: &Outcome) {
 
 /// `x -> -x` exchanges the senses of turning and the two spans. The pulleys stay in their order, so
 /// node `i` of the one belt is node `-i` of the other, and sums are taken in another order: rounding
-/// differs, step choices do not (they look at magnitudes of x and y).
+/// differs, step choices do not (they look at lengths of vectors).
 #[test]
 fn mirrored_drive_gives_the_mirrored_answer() {
     let mirrored = |pulley: Pulley| Pulley {
@@ -151,9 +151,11 @@ fn rotated_and_shifted_drive_gives_the_rotated_answer() {
             ..pulley
         }
     };
-    let fixed = ["run.step=1e-4", "run.end_time=0.2"];
-    let one = run(&[DRIVER, DRIVEN], LENGTH, &fixed);
-    let two = run(&[turned(DRIVER), turned(DRIVEN)], LENGTH, &fixed);
+    // Norms take the lengths of vectors, so that steps, too, are those of the drive before.
+    let short = ["run.end_time=0.2"];
+    let one = run(&[DRIVER, DRIVEN], LENGTH, &short);
+    let two = run(&[turned(DRIVER), turned(DRIVEN)], LENGTH, &short);
+    assert_eq!(one.statistics.steps, two.statistics.steps);
     for name in [
         "driven.speed",
         "driver-driven.tension",
@@ -288,5 +290,117 @@ fn audit_closes_with_gravity_and_belt_damping() {
         assert_audit(&outcome);
         assert!(last(&outcome, "energy.damping_loss") > 0.0);
         assert!(last(&outcome, "driven.speed") > 1.0);
+    }
+}
+
+/// Slow drives of light pulleys swing fast against their speed, and a short run turns little energy
+/// over: both must close their balances at the default accuracy as well.
+#[test]
+fn audits_close_in_slow_drives_and_short_runs() {
+    let slow = Pulley {
+        speed: Some(4.0),
+        ..DRIVER
+    };
+    let idler = Pulley {
+        name: "idler",
+        center: [0.0, -0.11],
+        radius: 0.06,
+        outside: true,
+        speed: None,
+    };
+    let crossed = Pulley {
+        outside: true,
+        ..DRIVEN
+    };
+    let small = Pulley {
+        radius: 0.05,
+        ..DRIVER
+    };
+    let large = Pulley {
+        radius: 0.1,
+        ..DRIVEN
+    };
+    for inertia in [0.1, 0.02, 0.005] {
+        let light = format!("pulley.driven.inertia={inertia}");
+        assert_audit(&run(&[slow, crossed], "strain = 0.005", &[&light]));
+        assert_audit(&run(&[small, large], "strain = 0.005", &[&light]));
+        let options = [&light[..], "gravity=[0.0, -9.81]", "belt.damping_time=1e-4"];
+        assert_audit(&run(&[slow, DRIVEN], LENGTH, &options));
+        let loose = [
+            &light[..],
+            "belt.elements=60",
+            "pulley.idler.inertia=0.0005",
+        ];
+        assert_audit(&run(&[slow, idler, DRIVEN], "strain = 0.005", &loose));
+    }
+    assert_audit(&run(&[DRIVER, DRIVEN], LENGTH, &["run.end_time=0.15"]));
+}
+
+/// A small idler that presses far into the belt's path: the start is hard to settle.
+#[test]
+fn a_small_idler_deep_in_the_path_settles() {
+    let idler = Pulley {
+        name: "idler",
+        center: [0.0, -0.09],
+        radius: 0.04,
+        outside: true,
+        speed: None,
+    };
+    let changes = ["belt.elements=40", "pulley.idler.inertia=0.0005"];
+    assert_audit(&run(&[DRIVER, idler, DRIVEN], "strain = 0.005", &changes));
+}
+
+/// Every friction law, belt element and contact line closes its balances and drives the driven pulley
+/// at the ratio of pitch radii, within the swing and the lag of the ramp (10 %).
+#[test]
+fn audits_close_with_every_law_element_and_surface() {
+    let variants: [&[&str]; 7] = [
+        &[
+            "contact.friction={ law = \"stribeck\", static_coefficient = 0.9, sliding_coefficient = 0.5, stribeck_velocity = 0.2, velocity = 0.01 }",
+        ],
+        &["contact.friction={ law = \"elastic-plastic\", coefficient = 1.2, stiffness = 1e7 }"],
+        &[
+            "contact.friction={ law = \"elastic-plastic\", coefficient = 1.2, stiffness = 1e7, damping = 1e3 }",
+        ],
+        &["contact.surface=\"face\""],
+        &["belt.element=\"cubic-beam\""],
+        &["belt.element=\"linear-beam\"", "belt.elements=120"],
+        &[
+            "pulley.driven.load={ law = \"fan\", torque = 0.2, speed = 12.0 }",
+            "pulley.driver.irregularity=[{ order = 2.0, amplitude = 0.02 }]",
+        ],
+    ];
+    for changes in variants {
+        let outcome = run(&[DRIVER, DRIVEN], "strain = 0.005", changes);
+        assert_audit(&outcome);
+        let speed = last(&outcome, "driven.speed");
+        assert!(
+            (speed / 12.0 - 1.0).abs() < 0.1,
+            "{changes:?}: {speed} rad/s"
+        );
+    }
+}
+
+/// A joint by multipliers closes the same loop: the same equations, other unknowns, so that only what
+/// Newton leaves differs.
+#[test]
+fn joint_by_multipliers_gives_the_motion_of_the_shared_node() {
+    let short = ["run.end_time=0.2"];
+    let shared = run(&[DRIVER, DRIVEN], LENGTH, &short);
+    let tied = run(
+        &[DRIVER, DRIVEN],
+        LENGTH,
+        &[short[0], "belt.joint=\"multipliers\""],
+    );
+    assert_audit(&tied);
+    assert_eq!(tied.dofs, shared.dofs + 12);
+    for name in [
+        "driven.speed",
+        "driver-driven.tension",
+        "driven-driver.tension",
+        "driver.hub_force_x",
+    ] {
+        let off = difference(&column(&shared, name), 1.0, &column(&tied, name));
+        assert!(off < TO_SOLVER_TOLERANCE, "{name}: {off:.1e}");
     }
 }

@@ -56,6 +56,20 @@ pub struct Control {
     pub kinks: Vec<f64>,
 }
 
+impl Control {
+    /// Steps of fixed length [s], halved only where one fails; velocities solved to 1e-9 m/s.
+    #[must_use]
+    pub fn fixed(method: Method, step: f64) -> Self {
+        Self {
+            method,
+            step,
+            error_tolerance: None,
+            newton_tolerance: 1.0e-9,
+            kinks: Vec::new(),
+        }
+    }
+}
+
 /// Two accepted states, one step apart.
 #[derive(Clone, Copy, Debug)]
 pub struct Window<'a> {

@@ -18,6 +18,7 @@
 use thiserror::Error;
 
 use super::{Motion, Statistics};
+use crate::constraint::ConstraintSet;
 use crate::linear::{BorderedMatrix, CompressedRows, CyclicSolver, Solver};
 use crate::norm::VectorNorm;
 use crate::system::{Mechanics, State};
@@ -126,8 +127,13 @@ impl Stage {
 
     /// Puts prescribed coordinates in and writes the accelerations `M^-1 f` of `motion`.
     pub fn accelerations(&mut self, system: &mut dyn Mechanics, motion: &mut Motion) {
-        if !self.mass_factored {
+        system.prescribe(motion.time, &mut motion.q, &mut motion.v, &mut motion.a);
+        let constant = (system.constraints()).is_none_or(ConstraintSet::is_constant);
+        if !self.mass_factored || !constant {
             self.matrix.copy_from(system.mass());
+            if let Some(constraints) = system.constraints() {
+                constraints.complete_matrix(&motion.q, &motion.a, 0.0, &mut self.matrix);
+            }
             for (index, _) in system.prescribed() {
                 self.matrix.set_unit_row(*index);
             }
@@ -135,7 +141,6 @@ impl Stage {
             // which the schemes report as a step that does not converge.
             self.mass_factored = self.mass_solver.factor(&self.matrix).is_ok();
         }
-        system.prescribe(motion.time, &mut motion.q, &mut motion.v, &mut motion.a);
         let state = State {
             time: motion.time,
             q: &motion.q,
@@ -143,6 +148,9 @@ impl Stage {
         };
         system.force(state, &mut self.force);
         self.statistics.force_evaluations += 1;
+        if let Some(constraints) = system.constraints() {
+            constraints.complete_force(state, &mut self.force);
+        }
         for (index, _) in system.prescribed() {
             self.force[*index] = motion.a[*index];
         }
@@ -272,6 +280,12 @@ impl Stage {
                 residual[i] - self.force[i]
             };
         }
+        if let Some(constraints) = system.constraints() {
+            constraints.complete_residual(&motion.q, &motion.a, residual);
+            for (index, _) in system.prescribed() {
+                residual[*index] = 0.0;
+            }
+        }
     }
 
     fn correct(&mut self, target: Target) {
@@ -301,6 +315,10 @@ impl Stage {
             base.velocity_factor,
             &mut self.matrix,
         );
+        if let Some(constraints) = system.constraints() {
+            let factor = base.position_factor;
+            constraints.complete_matrix(&motion.q, &motion.a, factor, &mut self.matrix);
+        }
         for (index, _) in system.prescribed() {
             self.matrix.set_unit_row(*index);
         }

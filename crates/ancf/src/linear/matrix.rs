@@ -288,6 +288,60 @@ impl BorderedMatrix {
         self.add(row, row, 1.0);
     }
 
+    /// Adds `factor` times the row `source` to the row `target`: a row of the same section, or any row
+    /// to one of the border.
+    ///
+    /// # Panics
+    /// If the sum would leave the pattern.
+    pub fn add_row(&mut self, target: usize, factor: f64, source: usize) {
+        let structure = self.structure;
+        let Structure { block, border, .. } = structure;
+        let chain = structure.chain();
+        let fits = target >= chain || (source < chain && target / block == source / block);
+        assert!(
+            fits && target.max(source) < structure.size(),
+            "row {source} does not fit into row {target} of {structure:?}"
+        );
+        if target < chain {
+            for j in 0..3 * block {
+                self.blocks[3 * block * target + j] += factor * self.blocks[3 * block * source + j];
+            }
+            for k in 0..border {
+                self.border_columns[border * target + k] +=
+                    factor * self.border_columns[border * source + k];
+            }
+            return;
+        }
+        let into = target - chain;
+        if source < chain {
+            let section = source / block;
+            let neighbours = [
+                structure.predecessor(section),
+                Some(section),
+                structure.successor(section),
+            ];
+            for (place, neighbour) in neighbours.into_iter().enumerate() {
+                for j in 0..neighbour.map_or(0, |_| block) {
+                    let column = neighbour.map_or(0, |neighbour| neighbour * block + j);
+                    self.border_rows[column * border + into] +=
+                        factor * self.blocks[(3 * source + place) * block + j];
+                }
+            }
+            for k in 0..border {
+                self.corner[into * border + k] += factor * self.border_columns[source * border + k];
+            }
+        } else {
+            let from = source - chain;
+            for column in 0..chain {
+                self.border_rows[column * border + into] +=
+                    factor * self.border_rows[column * border + from];
+            }
+            for k in 0..border {
+                self.corner[into * border + k] += factor * self.corner[from * border + k];
+            }
+        }
+    }
+
     /// Writes the product with `x` to `y`, both of length [`Structure::size`].
     ///
     /// # Panics

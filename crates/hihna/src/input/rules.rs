@@ -1,10 +1,11 @@
 //! Rules that involve several fields of a drive. Ranges of single fields are attributes of `Drive`.
 
 use crate::assemble::{AssemblyError, Mounting};
-use crate::drive::{Belt, Drive, Pulley, Run, Step};
+use crate::drive::{Belt, BeltElement, Drive, Pulley, Run, Step};
 use crate::input::check::own_name;
 use crate::input::problem::{FieldPath, Problem, quoted};
 use crate::layout::{Layout, LayoutError};
+use crate::load::Load;
 use crate::profile::{Profile, Varying};
 
 /// More rows than this fill a disk before they tell anything.
@@ -13,6 +14,7 @@ const MOST_ROWS: f64 = 1e7;
 /// Everything that breaks a rule, in the order of the file.
 pub(crate) fn problems(drive: &Drive) -> Vec<Problem> {
     let mut problems = Vec::new();
+    element(&drive.belt, &mut problems);
     tightness(&drive.belt, &mut problems);
     number_of_pulleys(&drive.pulley, &mut problems);
     let names: Vec<_> = drive
@@ -64,6 +66,7 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
             None => pulleys,
         },
         AssemblyError::Layout(_) => pulleys,
+        AssemblyError::Joint(_) => FieldPath::default().field("belt").field("joint"),
     };
     let problem = Problem::new(path, error.to_string());
     Some(match error {
@@ -73,10 +76,34 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
         AssemblyError::TooShort { shortest, path, .. } => problem.expected(format!(
             "an unstretched length between {shortest:.6} m and {path:.6} m"
         )),
+        AssemblyError::Joint(_) => problem,
         AssemblyError::Layout(_) => {
             problem.help("`hihna check` prints the path of the belt once it closes")
         }
     })
+}
+
+/// What only the belt beam has must not be asked of other elements.
+fn element(belt: &Belt, problems: &mut Vec<Problem>) {
+    if belt.element == BeltElement::BeltBeam {
+        return;
+    }
+    let path = FieldPath::default().field("belt");
+    let needless = [
+        ("axial_factor", belt.axial_factor, 1.0),
+        ("damping_time", belt.damping_time, 0.0),
+    ];
+    for (field, value, neutral) in needless {
+        if (value - neutral).abs() > 0.0 {
+            problems.push(
+                Problem::new(
+                    path.field(field),
+                    format!("only `belt-beam` elements have the `{field}`, which is {value}"),
+                )
+                .expected(format!("{neutral}, or nothing, for other elements")),
+            );
+        }
+    }
 }
 
 /// Exactly one of length, tension and strain says how tight the belt is.
@@ -231,6 +258,32 @@ fn motion(pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
             ),
         );
     }
+    if pulley.is_driver() && pulley.load.is_some() {
+        problems.push(
+            Problem::new(
+                path.field("load"),
+                format!("`{path}` has a prescribed motion and a load"),
+            )
+            .expected("no `load` on a driver: the torque that it needs is a result"),
+        );
+    }
+    if !pulley.irregularity.is_empty() && pulley.speed.is_none() {
+        problems.push(
+            Problem::new(
+                path.field("irregularity"),
+                format!("`{path}` has an irregularity but no speed"),
+            )
+            .expected("`irregularity` beside a `speed`, of which it is a part"),
+        );
+    }
+    if let Some(Load::Table { speed, torque }) = &pulley.load {
+        points(
+            ("speed", "rad/s", speed),
+            ("torque", torque),
+            &path.field("load"),
+            problems,
+        );
+    }
     if !pulley.is_driver() && pulley.inertia == 0.0 {
         problems.push(
             Problem::new(
@@ -270,44 +323,52 @@ fn profile(profile: &Profile, path: &FieldPath, problems: &mut Vec<Problem>) {
                 );
             }
         }
-        Profile::Varying(Varying::Table { time, value }) => table(time, value, path, problems),
+        Profile::Varying(Varying::Table { time, value }) => {
+            points(("time", "s", time), ("value", value), path, problems);
+        }
     }
 }
 
-fn table(time: &[f64], value: &[f64], path: &FieldPath, problems: &mut Vec<Problem>) {
-    if time.is_empty() {
+/// Points of a table: `x` named `x_name` in `unit` must increase, with a value named `y_name` for each.
+fn points(
+    (x_name, unit, x): (&str, &str, &[f64]),
+    (y_name, y): (&str, &[f64]),
+    path: &FieldPath,
+    problems: &mut Vec<Problem>,
+) {
+    if x.is_empty() {
         problems.push(
-            Problem::new(path.field("time"), format!("the table `{path}` is empty"))
-                .expected("at least one time and value"),
+            Problem::new(path.field(x_name), format!("the table `{path}` is empty"))
+                .expected(format!("at least one {x_name} and {y_name}")),
         );
     }
-    if time.len() != value.len() {
+    if x.len() != y.len() {
         problems.push(
             Problem::new(
-                path.field("value"),
+                path.field(y_name),
                 format!(
-                    "`{path}` has {} times but {} values",
-                    time.len(),
-                    value.len()
+                    "`{path}` has {} {x_name}s but {} {y_name}s",
+                    x.len(),
+                    y.len()
                 ),
             )
-            .expected("as many values as times"),
+            .expected(format!("as many {y_name}s as {x_name}s")),
         );
     }
-    let unsorted = time.windows(2).position(|pair| pair[1] <= pair[0]);
+    let unsorted = x.windows(2).position(|pair| pair[1] <= pair[0]);
     if let Some(i) = unsorted {
-        let (before, after) = (time[i], time[i + 1]);
+        let (before, after) = (x[i], x[i + 1]);
         let help = if after >= before {
-            "a change takes time: give the second value a later time"
+            format!("a change takes its {x_name}: give the second {y_name} a later {x_name}")
         } else {
-            "sort the table by time, values with it"
+            format!("sort the table by {x_name}, {y_name}s with it")
         };
         problems.push(
             Problem::new(
-                path.field("time").item(i + 1, None),
-                format!("`{path}` has the time {after} s after {before} s"),
+                path.field(x_name).item(i + 1, None),
+                format!("`{path}` has the {x_name} {after} {unit} after {before} {unit}"),
             )
-            .expected("times that increase")
+            .expected(format!("{x_name}s that increase"))
             .help(help),
         );
     }

@@ -76,6 +76,7 @@ pub(super) fn control(drive: &Drive, mounting: &Mounting) -> Control {
         (Step::Named(_), _) => (
             (0.02 * smallest / speed * fineness)
                 .min(SWING_STEP * fineness / slowest_swing(drive, mounting))
+                .min(SWING_STEP * fineness / fastest_harmonic(drive))
                 .min(run.end_time),
             Some(PREDICTION_TOLERANCE * speed * fineness),
         ),
@@ -92,7 +93,7 @@ pub(super) fn control(drive: &Drive, mounting: &Mounting) -> Control {
         method,
         step,
         error_tolerance,
-        newton_tolerance: 1.0e-6 * speed * (run.accuracy / REFERENCE_ACCURACY),
+        newton_tolerance: 2.0e-7 * speed * (run.accuracy / REFERENCE_ACCURACY),
         kinks,
     }
 }
@@ -111,6 +112,18 @@ fn slowest_swing(drive: &Drive, mounting: &Mounting) -> f64 {
         .map(|p| p.radius * (2.0 * stiffness * per_length / p.inertia).sqrt())
         .reduce(f64::min)
         .unwrap_or(0.0)
+}
+
+/// Angular frequency [rad/s] of the fastest prescribed irregularity, zero without one.
+fn fastest_harmonic(drive: &Drive) -> f64 {
+    drive
+        .pulley
+        .iter()
+        .flat_map(|pulley| {
+            let speed = pulley.speed.as_ref().map_or(0.0, Profile::bound);
+            pulley.irregularity.iter().map(move |h| h.order * speed)
+        })
+        .fold(0.0, f64::max)
 }
 
 /// A stable step of the explicit scheme: half its real stability limit 2.78 for friction at full

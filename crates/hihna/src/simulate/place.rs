@@ -3,17 +3,20 @@
 use crate::drive::Drive;
 use crate::layout::Layout;
 
-/// Where on the drive a coordinate is, in words.
+/// Where on the drive a coordinate is, in words: the belt has `chain` coordinates, `dof` for each node.
 pub(super) fn place(
     drive: &Drive,
     layout: &Layout,
     q: &[f64],
     coordinate: usize,
-    dof: usize,
+    (chain, dof): (usize, usize),
 ) -> String {
-    let chain = drive.belt.elements * dof;
     if coordinate >= chain {
-        return format!("at pulley `{}`", drive.pulley[coordinate - chain].name);
+        let pulley = drive.pulley.get(coordinate - chain);
+        return pulley.map_or_else(
+            || "at the joint of the belt's ends".to_owned(),
+            |pulley| format!("at pulley `{}`", pulley.name),
+        );
     }
     let node = coordinate / dof;
     let position = [q[node * dof], q[node * dof + 1]];

@@ -8,15 +8,23 @@
 //! path of rigid pulleys. Bending, shear, penetration and the creep slope of the friction law have
 //! no place in this theory.
 
-use serde::Serialize;
-
-use crate::drive::{Belt, Drive, Pulley};
-use crate::layout::{Layout, LayoutError};
+use crate::drive::{Drive, Pulley};
+use crate::layout::Layout;
 use crate::profile::{Profile, Varying};
 use crate::steady::string::{
-    Answer, Capacity, Closure, GrossSlip, Model, Role, Running, Slack, StringDrive, StringError,
-    StringPulley, Tightness,
+    Answer, Capacity, Closure, GrossSlip, Model, Role, Slack, StringDrive, StringError,
 };
+
+mod error;
+mod numbers;
+mod sensitivity;
+mod summary;
+
+pub use error::SteadyError;
+pub use sensitivity::{DriveSensitivity, Input, Output, UnknownInput};
+pub use summary::{PulleySummary, SpanSummary};
+
+use numbers::{DriveNumbers, span_behind};
 
 /// A drive made ready for the string theory.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,130 +39,16 @@ pub struct DriveString {
     pub order: Vec<usize>,
     /// `+1`: the belt moves in the order of the drive's list; `-1`: against it.
     pub direction: f64,
-}
-
-/// The state of a pulley, signs counter-clockwise, vectors in the drive's axes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PulleySummary {
-    /// Name.
-    #[serde(skip)]
-    pub name: String,
-    /// Angular speed [rad/s].
-    pub speed: f64,
-    /// Torque of the belt on the pulley [N m].
-    pub torque: f64,
-    /// External torque [N m].
-    pub external_torque: f64,
-    /// Power of the external torque, negative where power is taken out [W].
-    pub power: f64,
-    /// Force of the belt on the pulley [N]; with model `centrifugal` without the stretching
-    /// acceleration's small share.
-    pub hub_force: [f64; 2],
-    /// Speed of the belt at the exit less that of the surface [m/s].
-    pub slip_speed: f64,
-    /// Wrap angle [rad].
-    pub wrap_angle: f64,
-    /// Angle of the slip zone [rad].
-    pub slip_angle: f64,
-    /// Angle of the stick zone [rad].
-    pub stick_angle: f64,
-    /// How much slower the surface is than that of the speed-controlled pulley, relative [-].
-    pub speed_loss: f64,
-    /// Power lost in the slip zone [W].
-    pub friction_loss: f64,
-}
-
-/// The state of a span.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SpanSummary {
-    /// `<from>-<to>`, in the drive's order.
-    #[serde(skip)]
-    pub name: String,
-    /// Axial force [N].
-    pub tension: f64,
-    /// Axial force less momentum flow [N].
-    pub pressing_tension: f64,
-    /// Engineering strain [-].
-    pub strain: f64,
-    /// Speed of the belt, positive along its motion [m/s].
-    pub speed: f64,
-    /// Length [m].
-    pub length: f64,
-}
-
-/// Why a drive has no steady running to ask for.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SteadyError {
-    /// The pulleys cannot carry the belt.
-    #[error(transparent)]
-    Layout(#[from] LayoutError),
-    /// No pulley is driven.
-    #[error(
-        "no pulley has a `speed`: exactly one must, the others turn by the belt and their `torque`"
-    )]
-    NoSpeed,
-    /// Several pulleys are driven.
-    #[error(
-        "pulleys \"{first}\" and \"{second}\" both have a `speed`: steady running needs exactly one; give the other its `torque`"
-    )]
-    SeveralSpeeds {
-        /// Name of the one.
-        first: String,
-        /// Name of another.
-        second: String,
-    },
-    /// A pulley has both speed and torque.
-    #[error(
-        "pulley \"{pulley}\" has a `speed` and a `torque` of {torque} N m: drop one, the torque of a pulley of given speed is found"
-    )]
-    SpeedAndTorque {
-        /// Name of the pulley.
-        pulley: String,
-        /// Its torque [N m].
-        torque: f64,
-    },
-    /// A pulley is driven by its angle.
-    #[error("pulley \"{pulley}\" is driven by its `angle`: give its `speed` for steady running")]
-    AngleDriven {
-        /// Name of the pulley.
-        pulley: String,
-    },
-    /// The driven pulley ends at rest.
-    #[error(
-        "the speed of pulley \"{pulley}\" ends with {speed} rad/s: steady running needs one that turns"
-    )]
-    AtRest {
-        /// Name of the pulley.
-        pulley: String,
-        /// The final value [rad/s].
-        speed: f64,
-    },
-    /// The belt's length is not given.
-    #[error("the belt has none of `length`, `tension`, `strain`: give one")]
-    NoTightness,
-    /// A quantity of a pulley is out of its range.
-    #[error("the {quantity} of pulley \"{pulley}\" is {value}: it must be {wanted}")]
-    OutOfRange {
-        /// The quantity with its unit.
-        quantity: &'static str,
-        /// Name of the pulley.
-        pulley: String,
-        /// Its value, SI.
-        value: f64,
-        /// What it must be.
-        wanted: &'static str,
-    },
-    /// Anything else that the theory refuses.
-    #[error(transparent)]
-    String(StringError),
+    numbers: DriveNumbers,
 }
 
 impl DriveString {
     /// Makes a drive ready.
     pub fn new(drive: &Drive, model: Model, closure: Closure) -> Result<Self, SteadyError> {
         let layout = Layout::of(drive)?;
-        let (driver, speed) = speed_controlled(&drive.pulley)?;
-        let direction = speed.signum() * layout.arcs[driver].sweep.signum();
+        let numbers = DriveNumbers::new(drive)?;
+        let direction =
+            numbers.driving_speed().signum() * layout.arcs[numbers.driver].sweep.signum();
         let count = drive.pulley.len();
         let order: Vec<usize> = (0..count)
             .map(|j| {
@@ -165,17 +59,9 @@ impl DriveString {
                 }
             })
             .collect();
-        let area = drive.belt.width * drive.belt.thickness;
-        let axial_stiffness = drive.belt.axial_factor * drive.belt.youngs_modulus * area;
-        let mut prepared = Self {
-            string: StringDrive {
-                axial_stiffness,
-                line_density: drive.belt.density * area,
-                tightness: tightness(&drive.belt, axial_stiffness)?,
-                pulleys: Vec::with_capacity(count),
-                model,
-                closure,
-            },
+        let path = numbers.path(&layout);
+        Ok(Self {
+            string: numbers.string(&path, &layout, &order, direction, (model, closure)),
             names: drive
                 .pulley
                 .iter()
@@ -184,30 +70,18 @@ impl DriveString {
             layout,
             order,
             direction,
-        };
-        for j in 0..count {
-            let i = prepared.order[j];
-            let arc = &prepared.layout.arcs[i];
-            let role = if i == driver {
-                Role::SpeedControlled(speed.abs())
-            } else {
-                Role::Torque(prepared.rotation(i) * final_value(&drive.pulley[i].torque))
-            };
-            let pulley = StringPulley {
-                radius: arc.radius,
-                wrap_angle: arc.sweep.abs(),
-                friction: drive.coefficient_on(&drive.pulley[i]),
-                role,
-                span: prepared.layout.spans[prepared.span_behind(j)].length,
-            };
-            prepared.string.pulleys.push(pulley);
-        }
-        Ok(prepared)
+            numbers,
+        })
     }
 
     /// Solves the drive; see [`StringDrive::solve`].
     pub fn solve(&self) -> Result<Answer, SteadyError> {
-        self.string.solve().map_err(|error| match error {
+        self.string.solve().map_err(|error| self.named(error))
+    }
+
+    /// An error of the theory in the drive's terms.
+    fn named(&self, error: StringError) -> SteadyError {
+        match error {
             StringError::OutOfRange {
                 quantity,
                 pulley: Some(j),
@@ -223,31 +97,7 @@ impl DriveString {
                 }
             }
             other => SteadyError::String(other),
-        })
-    }
-
-    /// The pulleys of a running drive, in the drive's order.
-    pub fn pulleys(&self, running: &Running) -> Vec<PulleySummary> {
-        (0..self.names.len())
-            .map(|i| self.pulley(running, i))
-            .collect()
-    }
-
-    /// The spans of a running drive, in the drive's order: from each pulley to the next.
-    pub fn spans(&self, running: &Running) -> Vec<SpanSummary> {
-        (0..self.names.len())
-            .map(|i| {
-                let (span, state) = (&self.layout.spans[i], &running.spans[self.string_span(i)]);
-                SpanSummary {
-                    name: self.span_name(i),
-                    tension: state.tension,
-                    pressing_tension: state.pressing_tension,
-                    strain: state.strain,
-                    speed: state.speed,
-                    length: span.length,
-                }
-            })
-            .collect()
+        }
     }
 
     /// The largest torque that may brake the pulley of index `pulley` in the drive if it is the only
@@ -282,10 +132,13 @@ impl DriveString {
         let name = &self.names[self.order[pulley]];
         let need = slip.slack_span.map_or_else(
             || {
-                let angles = (slip.slip_angle.to_degrees(), slip.wrap_angle.to_degrees());
+                if slip.slip_angle.is_infinite() {
+                    return "it has no friction".to_owned();
+                }
+                let (angle, wrap) = (slip.slip_angle.to_degrees(), slip.wrap_angle.to_degrees());
                 format!(
-                    "the torques need {:.1} degrees of slip, it is wrapped by {:.1}",
-                    angles.0, angles.1
+                    "the torques need {angle:.1} degrees of slip, it is wrapped by {wrap:.1}, {:.3} degrees too few",
+                    angle - wrap
                 )
             },
             |span| {
@@ -334,13 +187,7 @@ impl DriveString {
 
     /// Index in the layout of the span that the string counts as behind its pulley `j`.
     pub fn span_behind(&self, j: usize) -> usize {
-        let count = self.names.len();
-        let i = self.order[j];
-        if self.direction > 0.0 {
-            i
-        } else {
-            (i + count - 1) % count
-        }
+        span_behind(self.names.len(), self.direction, self.order[j])
     }
 
     /// Name of the span of index `span` in the drive's layout.
@@ -351,39 +198,17 @@ impl DriveString {
             self.names[(span + 1) % self.names.len()]
         )
     }
-
-    fn pulley(&self, running: &Running, i: usize) -> PulleySummary {
-        let count = self.names.len();
-        let state = &running.pulleys[self.string_pulley(i)];
-        let rotation = self.rotation(i);
-        let before = (i + count - 1) % count;
-        let pull = |span: usize, sign: f64| {
-            let force = sign * running.spans[self.string_span(span)].pressing_tension;
-            let line = &self.layout.spans[span];
-            [0, 1].map(|axis| force * (line.end[axis] - line.start[axis]) / line.length)
-        };
-        let (ahead, back) = (pull(i, 1.0), pull(before, -1.0));
-        PulleySummary {
-            name: self.names[i].clone(),
-            speed: rotation * state.speed,
-            torque: -rotation * state.torque,
-            external_torque: rotation * state.torque,
-            power: state.power,
-            hub_force: [ahead[0] + back[0], ahead[1] + back[1]],
-            slip_speed: rotation * state.slip_speed,
-            wrap_angle: self.layout.arcs[i].sweep.abs(),
-            slip_angle: state.slip_angle,
-            stick_angle: state.stick_angle,
-            speed_loss: state.speed_loss,
-            friction_loss: state.friction_loss,
-        }
-    }
 }
 
 /// The one pulley of given speed and the speed it ends with.
 fn speed_controlled(pulleys: &[Pulley]) -> Result<(usize, f64), SteadyError> {
     if let Some(pulley) = pulleys.iter().find(|pulley| pulley.angle.is_some()) {
         return Err(SteadyError::AngleDriven {
+            pulley: pulley.name.clone(),
+        });
+    }
+    if let Some(pulley) = pulleys.iter().find(|pulley| pulley.load.is_some()) {
+        return Err(SteadyError::SpeedDependent {
             pulley: pulley.name.clone(),
         });
     }
@@ -411,15 +236,6 @@ fn speed_controlled(pulleys: &[Pulley]) -> Result<(usize, f64), SteadyError> {
         });
     }
     Ok((index, speed))
-}
-
-fn tightness(belt: &Belt, axial_stiffness: f64) -> Result<Tightness, SteadyError> {
-    match (belt.length, belt.tension, belt.strain) {
-        (Some(length), ..) => Ok(Tightness::UnstretchedLength(length)),
-        (_, Some(tension), _) => Ok(Tightness::InitialTension(tension)),
-        (.., Some(strain)) => Ok(Tightness::InitialTension(axial_stiffness * strain)),
-        _ => Err(SteadyError::NoTightness),
-    }
 }
 
 /// What a profile ends with.

@@ -60,13 +60,9 @@ mod closure;
 pub mod sensitivity;
 mod state;
 
-use num_dual::DualNum;
+use crate::number::Number;
 
 pub use state::{BeltState, Capacity, GrossSlip, PulleyState, Running, Slack, SpanState};
-
-/// A number of the string theory: `f64`, or any dual number over `f64` of fixed size.
-pub trait Number: DualNum<Primitive = f64> + Copy {}
-impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
 /// A belt drive as the string theory sees it: pulleys in the order in which a belt particle meets them.
 ///

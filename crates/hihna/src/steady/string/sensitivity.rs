@@ -5,8 +5,8 @@
 //! carries the dual part along.
 //!
 //! Results have kinks where a slip zone changes its end: at zero torque the slip angle is |M| times
-//! something (its derivative for growing torque is given), and where two pulleys reach gross slip
-//! together the capacity follows the first.
+//! something, and power goes in or out (the derivatives for a torque that begins to brake are given);
+//! where two pulleys reach gross slip together the capacity follows the first.
 
 use std::fmt;
 

@@ -214,11 +214,12 @@ pub(super) fn running<D: Number>(
             D::zero()
         }
     });
+    // An idler counts as braked, so that its derivatives are those of a torque that begins to brake.
     let power_out = sum(|p| {
-        if p.power.re() < 0.0 {
-            -p.power
-        } else {
+        if p.power.re() > 0.0 {
             D::zero()
+        } else {
+            -p.power
         }
     });
     Running {

@@ -1,0 +1,115 @@
+//! Published values against what this program computes: the cases of `hihna validate`.
+//!
+//! The published side is data: TOML files in the folder `validation/` of the repository, built into
+//! the library. Each row of a case names a quantity, the value as printed or a statement in words,
+//! and a tolerance with its reason. The computed side is a function a case, in a file a topic below
+//! this module, which returns the quantities of its rows by name. [`catalogue`] joins the two,
+//! [`select`] picks cases by name, [`run`] computes and judges them in parallel.
+//!
+//! A row is judged by one of
+//! ```text
+//! |computed - (reference, or published where there is none)| <= tolerance
+//! at_least <= computed <= at_most
+//! ```
+//! or is only shown. A misprint keeps its printed value in `published`, with the value judged
+//! against in `reference` and the reason in `note`.
+
+mod data;
+mod markdown;
+mod pendulum;
+mod planar_beams;
+mod selection;
+mod spin_up;
+mod string_drive;
+mod verdict;
+
+use ancf::dynamics::IntegrationError;
+use ancf::structure::StructureError;
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::input::InputErrors;
+use crate::steady::drive_string::SteadyError;
+
+pub use data::{Case, CatalogueError, Row, catalogue};
+pub use markdown::markdown;
+pub use selection::{UnknownCase, select};
+pub use verdict::{Finding, Verdict};
+
+/// The quantities of a case, by the names that its data gives them, in SI or in the row's unit.
+pub(crate) type Quantities = Vec<(String, f64)>;
+
+/// Computes the quantities of a case.
+pub(crate) type Compute = fn() -> Result<Quantities, CaseError>;
+
+/// Every case with its computation: adding one touches this list, its data and its topic's file.
+const COMPUTATIONS: &[(&str, Compute)] = &[
+    ("chapter-2/table-2.1", planar_beams::table_2_1),
+    ("chapter-2/table-2.2", planar_beams::table_2_2),
+    ("chapter-2/table-2.3", planar_beams::table_2_3),
+    ("chapter-2/table-2.4", planar_beams::table_2_4),
+    ("chapter-2/pendulum", pendulum::pendulum),
+    ("chapter-2/table-2.5", pendulum::costs),
+    ("chapter-2/spin-up", spin_up::spin_up),
+    ("chapter-4-analytical/figures-4.4-4.5", string_drive::stiff),
+    (
+        "chapter-4-analytical/figures-4.11-4.14",
+        string_drive::compliant,
+    ),
+    (
+        "chapter-4-analytical/speed-loss",
+        string_drive::speed_losses,
+    ),
+    (
+        "chapter-4-analytical/figures-4.17-4.18",
+        string_drive::contact_forces,
+    ),
+];
+
+/// The data files, in the order of the program's output.
+const DATA: &[&str] = &[
+    include_str!("../../../validation/chapter-2.toml"),
+    include_str!("../../../validation/chapter-4-analytical.toml"),
+];
+
+/// Why a case could not be computed: all its judged rows fail.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    /// The case's drive is not read.
+    #[error(transparent)]
+    Input(#[from] InputErrors),
+    /// The string theory refuses the case's drive.
+    #[error(transparent)]
+    Steady(#[from] SteadyError),
+    /// A beam of the case has no answer.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    /// A motion of the case cannot be followed.
+    #[error(transparent)]
+    Integration(#[from] IntegrationError),
+    /// The case's drive slips or is slack.
+    #[error("the drive of the case does not run")]
+    DoesNotRun,
+}
+
+/// Computes and judges `cases` in parallel; findings come in the order of the cases and their rows.
+/// `done` is called after each case, from any thread.
+pub fn run(cases: &[&Case], done: impl Fn(&Case) + Sync) -> Vec<Finding> {
+    let findings: Vec<Vec<Finding>> = cases
+        .par_iter()
+        .map(|case| {
+            let findings = case.findings();
+            done(case);
+            findings
+        })
+        .collect();
+    findings.into_iter().flatten().collect()
+}
+
+/// Whether no finding failed.
+pub fn passed(findings: &[Finding]) -> bool {
+    findings.iter().all(|finding| finding.passed != Some(false))
+}
+
+#[cfg(test)]
+mod tests;
