@@ -6,17 +6,17 @@
 
 use std::hint::black_box;
 
-use ancf::element::{BeltBeam2, CubicBeam2, Element, LinearBeam2};
+use ancf::element::{
+    BeltBeam2, BeltBeam3, BendingRigidity, CubicBeam2, Element, LinearBeam2, LinearBeam3,
+    PlateQuadrature, ThinPlate,
+};
 use ancf::material::Isotropic;
 use ancf::scalar::{EightLanes, LaneKernel, Scalar, dispatch};
-use ancf::section::PlanarSection;
+use ancf::section::{PlanarSection, SpatialSection};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Elements of a batch.
 const COUNT: usize = 64;
-
-/// Most coordinates of an element here.
-const MOST: usize = 12;
 
 #[derive(Clone, Copy)]
 enum Work {
@@ -37,6 +37,22 @@ fn benches(criterion: &mut Criterion) {
     element(criterion, "linear_beam", &linear);
     let cubic = CubicBeam2::new(0.05, &section, &material);
     element(criterion, "cubic_beam", &cubic);
+    let section = SpatialSection::rectangle(0.02, 0.01);
+    let linear = LinearBeam3::new(0.05, &section, &material);
+    element(criterion, "spatial_linear_beam", &linear);
+    let belt = BeltBeam3::new(0.05, &section, &material, 1.0, 0.01);
+    element(criterion, "spatial_belt_beam", &belt);
+    let plate = ThinPlate::new(0.05, 0.04, 0.01, &material, BendingRigidity::Kirchhoff);
+    element(criterion, "thin_plate", &plate);
+    let every_point = PlateQuadrature {
+        membrane: 5,
+        bending: 5,
+    };
+    element(
+        criterion,
+        "thin_plate_5x5",
+        &plate.with_quadrature(every_point),
+    );
 }
 
 fn element<E: Element>(criterion: &mut Criterion, name: &str, element: &E) {
@@ -50,9 +66,10 @@ fn element<E: Element>(criterion: &mut Criterion, name: &str, element: &E) {
         ("force_and_tangent", Work::ForceAndTangent),
     ] {
         group.bench_function(format!("{label}/plain"), |bencher| {
+            let mut output = Output::new::<E>();
             bencher.iter(|| {
                 for e in &states {
-                    compute(element, e, work);
+                    output.compute(element, e, work);
                 }
             });
         });
@@ -81,29 +98,43 @@ impl<E: Element> LaneKernel for Batch<'_, E> {
 
     #[inline(always)]
     fn run<S: EightLanes>(self) {
-        let mut e = [S::zero(); MOST];
+        let mut e = vec![S::zero(); E::DOF];
+        let mut output = Output::new::<E>();
         for group in self.states.chunks_exact(8) {
-            for (i, value) in e[..E::DOF].iter_mut().enumerate() {
+            for (i, value) in e.iter_mut().enumerate() {
                 let mut lanes = [0.0; 8];
                 for lane in 0..8 {
                     lanes[lane] = group[lane][i];
                 }
                 *value = S::load(&lanes);
             }
-            compute(self.element, &e[..E::DOF], self.work);
+            output.compute(self.element, &e, self.work);
         }
     }
 }
 
-#[inline(always)]
-fn compute<E: Element, S: Scalar>(element: &E, e: &[S], work: Work) {
-    let mut force = [S::zero(); MOST];
-    element.force(black_box(e), &mut force[..E::DOF]);
-    black_box(&force);
-    if matches!(work, Work::ForceAndTangent) {
-        let mut tangent = [S::zero(); MOST * MOST];
-        element.stiffness(black_box(e), &mut tangent[..E::DOF * E::DOF]);
-        black_box(&tangent);
+/// Where results go.
+struct Output<S> {
+    force: Vec<S>,
+    tangent: Vec<S>,
+}
+
+impl<S: Scalar> Output<S> {
+    fn new<E: Element>() -> Self {
+        Self {
+            force: vec![S::zero(); E::DOF],
+            tangent: vec![S::zero(); E::DOF * E::DOF],
+        }
+    }
+
+    #[inline(always)]
+    fn compute<E: Element>(&mut self, element: &E, e: &[S], work: Work) {
+        element.force(black_box(e), &mut self.force);
+        black_box(&self.force);
+        if matches!(work, Work::ForceAndTangent) {
+            element.stiffness(black_box(e), &mut self.tangent);
+            black_box(&self.tangent);
+        }
     }
 }
 

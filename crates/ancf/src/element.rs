@@ -11,14 +11,22 @@
 mod beam2_belt;
 mod beam2_cubic;
 mod beam2_linear;
+mod beam3_belt;
+mod beam3_linear;
 mod hermite;
 mod plane_section;
+mod plate_thin;
+mod space_section;
 
 pub use beam2_belt::BeltBeam2;
 pub use beam2_cubic::{CubicBeam2, FoldedReference};
 pub use beam2_linear::LinearBeam2;
+pub use beam3_belt::BeltBeam3;
+pub use beam3_linear::LinearBeam3;
+pub use plate_thin::{BendingRigidity, PlateQuadrature, ThinPlate};
 
 use crate::scalar::Scalar;
+use crate::strain::SurfaceGradient;
 
 /// An element with `NODES` nodes of `NODE_VECTORS` vectors in `DIMENSION` dimensions.
 ///
@@ -33,6 +41,9 @@ pub trait Element: Clone + PartialEq + std::fmt::Debug + Send + Sync {
     const NODES: usize;
     /// Vectors per node: the position and its slopes.
     const NODE_VECTORS: usize;
+    /// Where each node lies in a mesh: how many sections ahead of the first, and how many nodes across the
+    /// section from it. A beam's second node is the next section.
+    const NODE_PLACES: &'static [[usize; 2]] = &[[0, 0], [1, 0]];
     /// Coordinates of a node.
     const NODE_DOF: usize = Self::DIMENSION * Self::NODE_VECTORS;
     /// Coordinates of the element.
@@ -121,4 +132,31 @@ pub trait LineElement: Element {
 
     /// Axial force [N] at `xi` in the configuration `e`.
     fn axial_force(&self, e: &[f64], xi: f64) -> f64;
+}
+
+/// An element whose material points lie on a rectangle `0 <= x <= length`, `0 <= y <= width`: plates.
+/// Places on it are `[x / length, y / width]`.
+pub trait SurfaceElement: Element {
+    /// Undeformed length [m], along the body.
+    fn length(&self) -> f64;
+
+    /// Undeformed width [m], across it.
+    fn width(&self) -> f64;
+
+    /// Shape functions at `place`, one weight for each vector coordinate of the element (length
+    /// `NODES * NODE_VECTORS`).
+    fn surface(&self, place: [f64; 2], weights: &mut [f64]);
+
+    /// Derivatives of [`SurfaceElement::surface`] by x and y [1/m].
+    fn surface_slopes(&self, place: [f64; 2], by_x: &mut [f64], by_y: &mut [f64]);
+
+    /// `(r_x, r_y)` at `place` in the configuration `e`, with the measures of strain.
+    fn surface_gradient(&self, e: &[f64], place: [f64; 2]) -> SurfaceGradient;
+}
+
+/// `det [a b c]` of three vectors.
+fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
 }

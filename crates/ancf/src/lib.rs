@@ -17,5 +17,6 @@ pub mod quadrature;
 pub mod scalar;
 pub mod section;
 pub mod statics;
+pub mod strain;
 pub mod structure;
 pub mod system;

@@ -1,20 +1,22 @@
-//! One flexible body: a chain of elements, open or closed to a loop.
+//! One flexible body: a chain of elements, or a strip of them side by side, open or closed to a loop.
 
+mod rows;
+
+use self::rows::{Rows, is_chain};
 use crate::element::Element;
 use crate::linear::BorderedMatrix;
 use crate::scalar::{EightLanes, LaneKernel, dispatch};
 
 /// Elements computed side by side.
 const LANES: usize = 8;
-/// Most coordinates of an element; sizes the working memory on the stack.
-const MAX_DOF: usize = 12;
 
-/// A chain of two-node elements. Element `i` joins section (node) `i` to section `i + 1`; in a
-/// closed chain the last joins the first.
+/// Elements between cross-sections. A section is one node of a chain of beams, a row of nodes across a
+/// strip of plates; element `i` of a chain joins section `i` to section `i + 1`, and in a closed body the
+/// last section joins the first. Coordinates run section by section, so that only neighbours couple.
 #[derive(Clone, Debug)]
 pub struct Mesh<E> {
     elements: Vec<E>,
-    closed: bool,
+    rows: Rows,
     /// All elements equal: they are computed in lanes.
     uniform: bool,
 }
@@ -23,23 +25,61 @@ impl<E: Element> Mesh<E> {
     /// An open chain.
     #[must_use]
     pub fn open(elements: Vec<E>) -> Self {
-        Self::new(elements, false)
+        Self::new(elements, 1, false)
     }
 
     /// A closed loop; it needs at least three elements.
     #[must_use]
     pub fn closed(elements: Vec<E>) -> Self {
-        Self::new(elements, true)
+        Self::new(elements, 1, true)
     }
 
-    fn new(elements: Vec<E>, closed: bool) -> Self {
-        let uniform = elements.windows(2).all(|pair| pair[0] == pair[1]);
+    /// An open strip with `across` elements side by side: element `i * across + j` is the one in place
+    /// `i` along and `j` across.
+    ///
+    /// # Panics
+    /// If `across` is zero, does not divide the number of elements, or is not one of elements that
+    /// are chains (beams).
+    #[must_use]
+    pub fn open_strip(elements: Vec<E>, across: usize) -> Self {
+        Self::new(elements, across, false)
+    }
+
+    /// A strip closed to a loop, at least three elements long: see [`Mesh::open_strip`].
+    ///
+    /// # Panics
+    /// As [`Mesh::open_strip`].
+    #[must_use]
+    pub fn closed_strip(elements: Vec<E>, across: usize) -> Self {
+        Self::new(elements, across, true)
+    }
+
+    fn new(elements: Vec<E>, across: usize, closed: bool) -> Self {
         const {
-            assert!(E::DOF <= MAX_DOF, "raise MAX_DOF for this element");
+            assert!(
+                E::DOF <= 36,
+                "let the lane kernels below choose a larger size"
+            );
+            assert!(E::NODE_PLACES.len() == E::NODES, "every node has its place");
         }
+        assert!(
+            across > 0 && elements.len().is_multiple_of(across),
+            "{} elements do not fill rows of {across}",
+            elements.len()
+        );
+        assert!(
+            across == 1 || !is_chain::<E>(),
+            "beams stand in a chain, not side by side"
+        );
+        let uniform = elements.windows(2).all(|pair| pair[0] == pair[1]);
+        let rows = Rows {
+            along: elements.len() / across,
+            across,
+            closed,
+        };
         Self {
             elements,
-            closed,
+            rows,
             uniform,
         }
     }
@@ -49,14 +89,24 @@ impl<E: Element> Mesh<E> {
         &self.elements
     }
 
-    /// Whether the last element joins the first node again.
+    /// Whether the last section joins the first.
     pub fn is_closed(&self) -> bool {
-        self.closed
+        self.rows.closed
+    }
+
+    /// Number of cross-sections.
+    pub fn sections(&self) -> usize {
+        self.rows.sections()
+    }
+
+    /// Coordinates of a cross-section.
+    pub fn section_dof(&self) -> usize {
+        self.rows.row::<E>() * E::NODE_DOF
     }
 
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
-        self.elements.len() + usize::from(!self.closed)
+        self.sections() * self.rows.row::<E>()
     }
 
     /// Number of coordinates.
@@ -64,35 +114,60 @@ impl<E: Element> Mesh<E> {
         self.nodes() * E::NODE_DOF
     }
 
-    /// Index of the node after `node`.
+    /// Index of the section after `section`; of a chain, the node after a node.
     #[inline]
-    pub fn next(&self, node: usize) -> usize {
-        if self.closed && node + 1 == self.elements.len() {
-            0
-        } else {
-            node + 1
-        }
+    pub fn next(&self, section: usize) -> usize {
+        self.rows.next(section)
+    }
+
+    /// Number in the body of node `k` of an element.
+    #[inline]
+    pub fn node(&self, element: usize, k: usize) -> usize {
+        self.rows.node::<E>(element, k)
     }
 
     /// Copies the coordinates of element `element` out of `q` (length `DOF`).
     #[inline]
     pub fn gather(&self, element: usize, q: &[f64], e: &mut [f64]) {
         let n = E::NODE_DOF;
-        let (first, second) = (element * n, self.next(element) * n);
-        e[..n].copy_from_slice(&q[first..first + n]);
-        e[n..2 * n].copy_from_slice(&q[second..second + n]);
+        for k in 0..E::NODES {
+            let first = self.node(element, k) * n;
+            e[k * n..(k + 1) * n].copy_from_slice(&q[first..first + n]);
+        }
     }
 
     /// Adds the element vector `local` to `f`.
     #[inline]
     pub fn scatter(&self, element: usize, local: &[f64], f: &mut [f64]) {
         let n = E::NODE_DOF;
-        let (first, second) = (element * n, self.next(element) * n);
-        for i in 0..n {
-            f[first + i] += local[i];
+        for k in 0..E::NODES {
+            let first = self.node(element, k) * n;
+            for i in 0..n {
+                f[first + i] += local[k * n + i];
+            }
         }
-        for i in 0..n {
-            f[second + i] += local[n + i];
+    }
+
+    /// Adds `factor` times the element matrix `local` (row-major, `DOF x DOF`) to `matrix`.
+    #[inline(always)]
+    fn scatter_matrix(
+        &self,
+        element: usize,
+        factor: f64,
+        local: &[f64],
+        matrix: &mut BorderedMatrix,
+    ) {
+        if const { is_chain::<E>() } {
+            matrix.add_pair(element, factor, local);
+            return;
+        }
+        let n = E::NODE_DOF;
+        for row in 0..E::NODES {
+            for column in 0..E::NODES {
+                let places = [row, column].map(|k| self.node(element, k) * n);
+                let values = &local[(row * E::DOF + column) * n..];
+                matrix.add_square(places, n, factor, values, E::DOF);
+            }
         }
     }
 
@@ -159,18 +234,19 @@ impl<E: Element> Mesh<E> {
     /// The values of `x` at the coordinates of a batch, element by element in lanes; lanes without an
     /// element repeat the last one.
     #[inline(always)]
-    fn load<S: EightLanes>(&self, batch: Batch, x: &[f64]) -> [S; MAX_DOF] {
+    fn load<S: EightLanes, const N: usize>(&self, batch: Batch, x: &[f64]) -> [S; N] {
         let n = E::NODE_DOF;
-        let mut lanes = [[0.0; LANES]; MAX_DOF];
+        let mut lanes = [[0.0; LANES]; N];
         for lane in 0..LANES {
-            let node = batch.first + lane.min(batch.count - 1);
-            let (a, b) = (node * n, self.next(node) * n);
-            for i in 0..n {
-                lanes[i][lane] = x[a + i];
-                lanes[n + i][lane] = x[b + i];
+            let element = batch.first + lane.min(batch.count - 1);
+            for k in 0..E::NODES {
+                let first = self.node(element, k) * n;
+                for i in 0..n {
+                    lanes[k * n + i][lane] = x[first + i];
+                }
             }
         }
-        let mut loaded = [S::zero(); MAX_DOF];
+        let mut loaded = [S::zero(); N];
         for (value, lanes) in loaded.iter_mut().zip(&lanes) {
             *value = S::load(lanes);
         }
@@ -194,20 +270,35 @@ impl<E: Element> Mesh<E> {
                     }
                 }
             }
-            matrix.add_pair(i, 1.0, &local);
+            self.scatter_matrix(i, 1.0, &local, matrix);
         }
     }
 
     /// Length scales [m] that make the coordinates comparable: 1 for positions, a quarter of the
-    /// element's length for slopes along the body, `thickness` for slopes across it.
+    /// element's length for slopes along the body, `thickness` for slopes across it (for plates take a
+    /// quarter of the element's width).
     pub fn scales(&self, length: f64, thickness: f64) -> Vec<f64> {
         let mut node = vec![thickness; E::NODE_DOF];
         node[..E::DIMENSION].fill(1.0);
-        if E::NODE_VECTORS > E::DIMENSION {
+        if E::NODE_VECTORS > E::DIMENSION || !is_chain::<E>() {
             node[E::DIMENSION..2 * E::DIMENSION].fill(0.25 * length);
         }
         node.repeat(self.nodes())
     }
+}
+
+/// Runs `$self.sized::<S, N>()` with working memory for the `N` coordinates of an element, few for a
+/// planar beam: the size is known to the compiler, which drops the other calls.
+macro_rules! with_element_size {
+    ($self:ident, $scalar:ty, $element:ty) => {
+        if const { <$element>::DOF <= 12 } {
+            $self.sized::<$scalar, 12>()
+        } else if const { <$element>::DOF <= 24 } {
+            $self.sized::<$scalar, 24>()
+        } else {
+            $self.sized::<$scalar, 36>()
+        }
+    };
 }
 
 /// Consecutive equal elements computed together.
@@ -228,10 +319,17 @@ impl<E: Element> LaneKernel for Energy<'_, E> {
 
     #[inline(always)]
     fn run<S: EightLanes>(self) -> f64 {
+        with_element_size!(self, S, E)
+    }
+}
+
+impl<E: Element> Energy<'_, E> {
+    #[inline(always)]
+    fn sized<S: EightLanes, const N: usize>(self) -> f64 {
         let mut energy = 0.0;
         for batch in self.mesh.batches() {
             let element = &self.mesh.elements[batch.first];
-            let e = self.mesh.load::<S>(batch, self.q);
+            let e = self.mesh.load::<S, N>(batch, self.q);
             let lanes = element.energy(&e[..E::DOF]).store();
             energy += lanes[..batch.count].iter().sum::<f64>();
         }
@@ -252,21 +350,28 @@ impl<E: Element> LaneKernel for AddForce<'_, E> {
 
     #[inline(always)]
     fn run<S: EightLanes>(self) {
+        with_element_size!(self, S, E);
+    }
+}
+
+impl<E: Element> AddForce<'_, E> {
+    #[inline(always)]
+    fn sized<S: EightLanes, const N: usize>(self) {
         for batch in self.mesh.batches() {
             let element = &self.mesh.elements[batch.first];
-            let e = self.mesh.load::<S>(batch, self.q);
-            let mut force = [S::zero(); MAX_DOF];
+            let e = self.mesh.load::<S, N>(batch, self.q);
+            let mut force = [S::zero(); N];
             element.force(&e[..E::DOF], &mut force[..E::DOF]);
             if element.is_damped() {
-                let rate = self.mesh.load::<S>(batch, self.v);
+                let rate = self.mesh.load::<S, N>(batch, self.v);
                 element.add_damping_force(&e[..E::DOF], &rate[..E::DOF], &mut force[..E::DOF]);
             }
-            let mut stored = [[0.0; LANES]; MAX_DOF];
+            let mut stored = [[0.0; LANES]; N];
             for (lanes, value) in stored.iter_mut().zip(&force) {
                 *lanes = value.store();
             }
             for lane in 0..batch.count {
-                let local: [f64; MAX_DOF] = std::array::from_fn(|i| stored[i][lane]);
+                let local: [f64; N] = std::array::from_fn(|i| stored[i][lane]);
                 self.mesh.scatter(batch.first + lane, &local, self.f);
             }
         }
@@ -288,18 +393,28 @@ impl<E: Element> LaneKernel for AddTangent<'_, E> {
 
     #[inline(always)]
     fn run<S: EightLanes>(self) {
+        with_element_size!(self, S, E);
+    }
+}
+
+impl<E: Element> AddTangent<'_, E> {
+    #[inline(always)]
+    fn sized<S: EightLanes, const N: usize>(self) {
         let square = E::DOF * E::DOF;
-        let mut tangent = [S::zero(); MAX_DOF * MAX_DOF];
-        let mut stored = [[0.0; LANES]; MAX_DOF * MAX_DOF];
-        let mut local = [0.0; MAX_DOF * MAX_DOF];
+        let mut tangent = [[S::zero(); N]; N];
+        let mut stored = [[[0.0; LANES]; N]; N];
+        let mut local = [[0.0; N]; N];
+        let tangent = &mut tangent.as_flattened_mut()[..square];
+        let stored = &mut stored.as_flattened_mut()[..square];
+        let local = &mut local.as_flattened_mut()[..square];
         for batch in self.mesh.batches() {
             let element = &self.mesh.elements[batch.first];
-            let e = self.mesh.load::<S>(batch, self.q);
-            element.stiffness(&e[..E::DOF], &mut tangent[..square]);
+            let e = self.mesh.load::<S, N>(batch, self.q);
+            element.stiffness(&e[..E::DOF], tangent);
             let mut factor = self.position_factor;
             if element.is_damped() {
-                let rate = self.mesh.load::<S>(batch, self.v);
-                for value in &mut tangent[..square] {
+                let rate = self.mesh.load::<S, N>(batch, self.v);
+                for value in &mut *tangent {
                     *value = *value * self.position_factor;
                 }
                 factor = 1.0;
@@ -308,18 +423,18 @@ impl<E: Element> LaneKernel for AddTangent<'_, E> {
                     &rate[..E::DOF],
                     self.position_factor,
                     self.velocity_factor,
-                    &mut tangent[..square],
+                    tangent,
                 );
             }
-            for (lanes, value) in stored.iter_mut().zip(&tangent[..square]) {
+            for (lanes, value) in stored.iter_mut().zip(&*tangent) {
                 *lanes = value.store();
             }
             for lane in 0..batch.count {
-                for (value, lanes) in local[..square].iter_mut().zip(&stored) {
+                for (value, lanes) in local.iter_mut().zip(&*stored) {
                     *value = lanes[lane];
                 }
-                self.matrix
-                    .add_pair(batch.first + lane, factor, &local[..square]);
+                self.mesh
+                    .scatter_matrix(batch.first + lane, factor, local, self.matrix);
             }
         }
     }

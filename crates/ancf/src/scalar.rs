@@ -4,8 +4,10 @@
 //! branching (see [`Scalar::select_positive`]), so one text serves plain numbers, SIMD lanes and
 //! automatic differentiation.
 
+mod series;
 mod wide;
 
+pub(crate) use series::Series;
 pub use wide::{EightLanes, LaneKernel, Present, Wide, dispatch};
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

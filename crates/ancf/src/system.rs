@@ -146,8 +146,8 @@ impl<E: Element, L: ForceLaw> System<E, L> {
     #[must_use]
     pub fn new(mesh: Mesh<E>, mut scales: Vec<f64>, rigid: Vec<RigidCoordinate>, law: L) -> Self {
         let structure = Structure {
-            sections: mesh.nodes(),
-            block: E::NODE_DOF,
+            sections: mesh.sections(),
+            block: mesh.section_dof(),
             closed: mesh.is_closed(),
             border: rigid.len(),
         };

@@ -151,7 +151,7 @@ impl BeltContact {
             .map(|pulley| {
                 heights
                     .iter()
-                    .position(|height| *height == pulley.height)
+                    .position(|height| height.to_bits() == pulley.height.to_bits())
                     .unwrap_or_else(|| {
                         heights.push(pulley.height);
                         heights.len() - 1

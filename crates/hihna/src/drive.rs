@@ -250,7 +250,7 @@ pub struct Pulley {
     /// Angle of its groove [rad], both flanks together: the belt wedges in, and friction acts
     /// `1 / sin(angle / 2)` times. Absent: a flat face.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(schema_with = "units::angle", extend("exclusiveMinimum" = 0.0, "maximum" = 3.141_592_653_589_793))]
+    #[schemars(schema_with = "units::angle", extend("exclusiveMinimum" = 0.0, "maximum" = std::f64::consts::PI))]
     pub groove_angle: Option<f64>,
     /// Prescribed speed [rad/s], positive counter-clockwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -16,10 +16,15 @@
 
 mod data;
 mod markdown;
+mod pendulum;
+mod planar_beams;
 mod selection;
+mod spin_up;
 mod string_drive;
 mod verdict;
 
+use ancf::dynamics::IntegrationError;
+use ancf::structure::StructureError;
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -39,6 +44,13 @@ pub(crate) type Compute = fn() -> Result<Quantities, CaseError>;
 
 /// Every case with its computation: adding one touches this list, its data and its topic's file.
 const COMPUTATIONS: &[(&str, Compute)] = &[
+    ("chapter-2/table-2.1", planar_beams::table_2_1),
+    ("chapter-2/table-2.2", planar_beams::table_2_2),
+    ("chapter-2/table-2.3", planar_beams::table_2_3),
+    ("chapter-2/table-2.4", planar_beams::table_2_4),
+    ("chapter-2/pendulum", pendulum::pendulum),
+    ("chapter-2/table-2.5", pendulum::costs),
+    ("chapter-2/spin-up", spin_up::spin_up),
     ("chapter-4-analytical/figures-4.4-4.5", string_drive::stiff),
     (
         "chapter-4-analytical/figures-4.11-4.14",
@@ -55,9 +67,10 @@ const COMPUTATIONS: &[(&str, Compute)] = &[
 ];
 
 /// The data files, in the order of the program's output.
-const DATA: &[&str] = &[include_str!(
-    "../../../validation/chapter-4-analytical.toml"
-)];
+const DATA: &[&str] = &[
+    include_str!("../../../validation/chapter-2.toml"),
+    include_str!("../../../validation/chapter-4-analytical.toml"),
+];
 
 /// Why a case could not be computed: all its judged rows fail.
 #[derive(Debug, Error)]
@@ -68,6 +81,12 @@ pub enum CaseError {
     /// The string theory refuses the case's drive.
     #[error(transparent)]
     Steady(#[from] SteadyError),
+    /// A beam of the case has no answer.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
+    /// A motion of the case cannot be followed.
+    #[error(transparent)]
+    Integration(#[from] IntegrationError),
     /// The case's drive slips or is slack.
     #[error("the drive of the case does not run")]
     DoesNotRun,

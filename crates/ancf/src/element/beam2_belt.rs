@@ -40,10 +40,7 @@ use super::{Element, LineElement, hermite};
 use crate::material::Isotropic;
 use crate::quadrature::Rule;
 use crate::scalar::{Scalar, unroll};
-use crate::section::PlanarSection;
-
-/// Shear correction factor of the rectangle, as published.
-const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
+use crate::section::{PlanarSection, SHEAR_CORRECTION};
 
 /// Gauss points along the element; more change no published result.
 const POINTS: usize = 5;
@@ -323,12 +320,7 @@ impl Element for BeltBeam2 {
         let l = self.length;
         mass.fill(0.0);
         let line = self.line_density * l / 420.0;
-        let hermite = [
-            [156.0, 22.0 * l, 54.0, -13.0 * l],
-            [22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l],
-            [54.0, 13.0 * l, 156.0, -22.0 * l],
-            [-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l],
-        ];
+        let hermite = hermite::mass(l);
         for (i, row) in hermite::VECTORS.into_iter().enumerate() {
             for (j, column) in hermite::VECTORS.into_iter().enumerate() {
                 mass[6 * row + column] = line * hermite[i][j];
@@ -371,11 +363,11 @@ impl LineElement for BeltBeam2 {
     }
 
     fn centre_line(&self, xi: f64, weights: &mut [f64]) {
-        hermite::spread(hermite::value(xi, self.length), weights);
+        hermite::spread(hermite::value(xi, self.length), hermite::VECTORS, weights);
     }
 
     fn centre_line_slope(&self, xi: f64, weights: &mut [f64]) {
-        hermite::spread(hermite::slope(xi, self.length), weights);
+        hermite::spread(hermite::slope(xi, self.length), hermite::VECTORS, weights);
     }
 
     fn jacobian(&self, e: &[f64], xi: f64) -> f64 {

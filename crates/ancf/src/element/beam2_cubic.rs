@@ -352,11 +352,11 @@ impl LineElement for CubicBeam2 {
     }
 
     fn centre_line(&self, xi: f64, weights: &mut [f64]) {
-        hermite::spread(hermite::value(xi, self.length), weights);
+        hermite::spread(hermite::value(xi, self.length), hermite::VECTORS, weights);
     }
 
     fn centre_line_slope(&self, xi: f64, weights: &mut [f64]) {
-        hermite::spread(hermite::slope(xi, self.length), weights);
+        hermite::spread(hermite::slope(xi, self.length), hermite::VECTORS, weights);
     }
 
     fn jacobian(&self, e: &[f64], xi: f64) -> f64 {

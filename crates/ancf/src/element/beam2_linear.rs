@@ -18,10 +18,7 @@ use super::plane_section::{PlaneSection, Vectors};
 use super::{Element, LineElement};
 use crate::material::Isotropic;
 use crate::scalar::Scalar;
-use crate::section::PlanarSection;
-
-/// Shear correction factor of the rectangle, as published.
-const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
+use crate::section::{PlanarSection, SHEAR_CORRECTION};
 
 const DOF: usize = 8;
 

@@ -178,6 +178,39 @@ impl BorderedMatrix {
         }
     }
 
+    /// Adds `factor` times the `size x size` values whose rows start `stride` apart where the unknowns
+    /// of a section from `row` couple with those from `column`, of it or a neighbour.
+    ///
+    /// # Panics
+    /// If the square leaves a section or the sections do not couple.
+    #[inline]
+    pub fn add_square(
+        &mut self,
+        [row, column]: [usize; 2],
+        size: usize,
+        factor: f64,
+        values: &[f64],
+        stride: usize,
+    ) {
+        let block = self.structure.block;
+        assert!(
+            row % block + size <= block && column % block + size <= block,
+            "{size} unknowns from ({row}, {column}) leave their section of {block}"
+        );
+        let Some(Place::Block(first)) = self.place(row, column) else {
+            panic!(
+                "the sections of the unknowns {row} and {column} do not couple in {:?}",
+                self.structure
+            );
+        };
+        let rows = self.blocks[first..].chunks_mut(3 * block);
+        for (entries, values) in rows.zip(values.chunks(stride)).take(size) {
+            for (entry, value) in entries[..size].iter_mut().zip(values) {
+                *entry += factor * value;
+            }
+        }
+    }
+
     /// Adds `value` to the entry of global indices `row` and `column`; border unknowns are
     /// numbered from [`Structure::chain`].
     ///

@@ -326,7 +326,7 @@ impl LaneKernel for Accept<'_> {
                     if penetration[lane] <= 0.0 {
                         continue;
                     }
-                    new.pulley[lane] = (batch.pulley + 1) as f64;
+                    new.pulley[lane] = batch.pulley;
                     if stands[lane] > 0.0 && displacement[lane].abs() <= limit {
                         (new.x[lane], new.y[lane]) = (old.x[lane], old.y[lane]);
                         continue;

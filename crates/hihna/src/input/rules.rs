@@ -1,7 +1,7 @@
 //! Rules that involve several fields of a drive. Ranges of single fields are attributes of `Drive`.
 
 use crate::assemble::{AssemblyError, Mounting};
-use crate::drive::{Belt, Drive, Pulley, Run, Step};
+use crate::drive::{Belt, BeltElement, Drive, Pulley, Run, Step};
 use crate::input::check::own_name;
 use crate::input::problem::{FieldPath, Problem, quoted};
 use crate::layout::{Layout, LayoutError};
@@ -14,6 +14,7 @@ const MOST_ROWS: f64 = 1e7;
 /// Everything that breaks a rule, in the order of the file.
 pub(crate) fn problems(drive: &Drive) -> Vec<Problem> {
     let mut problems = Vec::new();
+    element(&drive.belt, &mut problems);
     tightness(&drive.belt, &mut problems);
     number_of_pulleys(&drive.pulley, &mut problems);
     let names: Vec<_> = drive
@@ -80,6 +81,29 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
             problem.help("`hihna check` prints the path of the belt once it closes")
         }
     })
+}
+
+/// What only the belt beam has must not be asked of other elements.
+fn element(belt: &Belt, problems: &mut Vec<Problem>) {
+    if belt.element == BeltElement::BeltBeam {
+        return;
+    }
+    let path = FieldPath::default().field("belt");
+    let needless = [
+        ("axial_factor", belt.axial_factor, 1.0),
+        ("damping_time", belt.damping_time, 0.0),
+    ];
+    for (field, value, neutral) in needless {
+        if (value - neutral).abs() > 0.0 {
+            problems.push(
+                Problem::new(
+                    path.field(field),
+                    format!("only `belt-beam` elements have the `{field}`, which is {value}"),
+                )
+                .expected(format!("{neutral}, or nothing, for other elements")),
+            );
+        }
+    }
 }
 
 /// Exactly one of length, tension and strain says how tight the belt is.

@@ -22,6 +22,9 @@ fn pulley(name: &str, center: [f64; 2], radius: f64, wrap: Wrap) -> Pulley {
         angle: None,
         inertia: 0.0,
         torque: Profile::Constant(0.0),
+        load: None,
+        irregularity: Vec::new(),
+        groove_angle: None,
     }
 }
 

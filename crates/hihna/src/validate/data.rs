@@ -46,6 +46,8 @@ pub struct Row {
     /// Misprints and readings.
     #[serde(default)]
     pub note: String,
+    /// Decimals that are printed of the published value; by default those of the case.
+    pub decimals: Option<usize>,
     /// Whether the program computes it; another program's value is only shown.
     #[serde(default = "yes")]
     pub computed: bool,
@@ -75,6 +77,8 @@ struct CaseData {
     /// Reason of the rows that give none.
     #[serde(default)]
     reason: String,
+    /// Printed decimals of the rows that give none.
+    decimals: Option<usize>,
     /// Unit of the rows that give none.
     unit: Option<String>,
     /// Tolerance of the rows with a printed value that are computed and give none.
@@ -119,6 +123,7 @@ impl CaseData {
             if row.is_judged_by(self.tolerance) && row.statement.is_none() {
                 row.tolerance = row.tolerance.or(self.tolerance);
             }
+            row.decimals = row.decimals.or(self.decimals);
             if let (Some(unit), "-") = (&self.unit, row.unit.as_str()) {
                 row.unit.clone_from(unit);
             }

@@ -15,8 +15,9 @@ cargo run --release -- validate --markdown > docs/src/validation.md
 ```
 
 *Deviation* is computed less published, or less the reference in brackets where the printed value is a
-misprint or none is printed; of a bound, the distance to it. The reasons of the tolerances and the notes
-stand below each table. Values that are only shown are other programs', or depend on the machine.
+misprint or none is printed; of a bound, the distance to it. The numbered remarks stand below each table.
+Values that are only shown are other programs', depend on the machine, or have nothing in print to judge
+them by.
 ";
 
 /// The page for the findings of `cases`, in their order.
@@ -40,17 +41,18 @@ pub fn markdown(cases: &[&Case], findings: &[Finding]) -> String {
             case.name, case.title, case.source
         );
         page.push_str(
-            "| quantity | unit | published | computed | deviation | tolerance | verdict |\n\
-             |---|---|---|---|---|---|---|\n",
+            "| quantity | unit | published | computed | deviation | tolerance | verdict | remarks |\n\
+             |---|---|---|---|---|---|---|---|\n",
         );
         let rows: Vec<_> = findings
             .iter()
             .filter(|finding| finding.case == case.name)
             .collect();
+        let mut remarks = Remarks::default();
         for finding in &rows {
             let _ = writeln!(
                 page,
-                "| {} | {} | {} | {} | {} | {} | {} |",
+                "| {} | {} | {} | {} | {} | {} | {} | {} |",
                 escaped(&finding.quantity),
                 finding.unit,
                 escaped(&finding.published_in_words()),
@@ -58,39 +60,45 @@ pub fn markdown(cases: &[&Case], findings: &[Finding]) -> String {
                 finding.deviation_in_words(),
                 finding.tolerance_in_words(),
                 finding.verdict().in_words(),
+                remarks.of(finding),
             );
         }
-        remarks(&mut page, &rows);
+        remarks.list(&mut page);
     }
     page
 }
 
-/// Reasons and notes, each said once for all the rows that share it.
-fn remarks(page: &mut String, rows: &[&Finding]) {
-    let mut said: Vec<(String, Vec<&str>)> = Vec::new();
-    for row in rows {
-        for (kind, text) in [("tolerance", &row.reason), ("note", &row.note)] {
-            if text.is_empty() {
-                continue;
-            }
-            let line = format!("{kind}: {text}");
-            match said.iter_mut().find(|(known, _)| *known == line) {
-                Some((_, quantities)) => quantities.push(&row.quantity),
-                None => said.push((line, vec![&row.quantity])),
-            }
+/// Reasons and notes, each said once and numbered.
+#[derive(Default)]
+struct Remarks {
+    said: Vec<String>,
+}
+
+impl Remarks {
+    /// The numbers of a row's remarks.
+    fn of(&mut self, finding: &Finding) -> String {
+        let reason = ("Tolerance: ", &finding.reason);
+        let texts = [reason, ("", &finding.note)];
+        let numbers = texts.iter().filter(|(_, text)| !text.is_empty());
+        let numbers = numbers.map(|(kind, text)| self.number(format!("{kind}{text}.")));
+        numbers.collect::<Vec<_>>().join(", ")
+    }
+
+    fn number(&mut self, remark: String) -> String {
+        let known = self.said.iter().position(|said| *said == remark);
+        let number = known.unwrap_or_else(|| {
+            self.said.push(remark);
+            self.said.len() - 1
+        });
+        (number + 1).to_string()
+    }
+
+    fn list(&self, page: &mut String) {
+        for (i, remark) in self.said.iter().enumerate() {
+            let gap = if i == 0 { "\n" } else { "" };
+            // Writing to a string cannot fail.
+            let _ = writeln!(page, "{gap}{}. {remark}", i + 1);
         }
-    }
-    if !said.is_empty() {
-        page.push('\n');
-    }
-    for (line, quantities) in said {
-        let of = if quantities.len() == rows.len() {
-            "all".to_owned()
-        } else {
-            quantities.join("; ")
-        };
-        // Writing to a string cannot fail.
-        let _ = writeln!(page, "- {}: {}", escaped(&of), escaped(&line));
     }
 }
 
@@ -114,7 +122,10 @@ impl Finding {
     /// As printed, `(reference)` beside or instead, or the statement.
     pub fn published_in_words(&self) -> String {
         let mut words: Vec<String> = Vec::new();
-        words.extend(self.published.map(|value| value.to_string()));
+        words.extend(self.published.map(|value| match self.decimals {
+            Some(decimals) => format!("{value:.decimals$}"),
+            None => value.to_string(),
+        }));
         words.extend(self.reference.map(|value| format!("({value})")));
         words.extend(self.statement.clone());
         words.join(" ")

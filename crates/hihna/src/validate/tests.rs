@@ -14,6 +14,7 @@ fn row(published: Option<f64>, tolerance: Option<f64>) -> Row {
         at_most: None,
         reason: String::new(),
         note: String::new(),
+        decimals: None,
         computed: true,
     }
 }

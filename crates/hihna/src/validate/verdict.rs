@@ -41,6 +41,9 @@ pub struct Finding {
     pub reason: String,
     /// Misprints and readings; why the computation failed.
     pub note: String,
+    /// Decimals that are printed of the published value.
+    #[serde(skip)]
+    pub decimals: Option<usize>,
 }
 
 /// What a row says about the program.
@@ -84,6 +87,7 @@ impl Finding {
                 Some(error) if row.computed => format!("not computed: {error}"),
                 _ => row.note.clone(),
             },
+            decimals: row.decimals,
         }
     }
 

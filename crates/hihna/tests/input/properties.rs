@@ -1,11 +1,12 @@
 //! Properties of reading and writing drives: what is written reads back bit for bit, and no text panics.
 
 use hihna::drive::{
-    AutoStep, Belt, BeltElement, Contact, Drive, Friction, Integrator, Pulley, Run, Start, Step,
-    Wrap,
+    AutoStep, Belt, BeltElement, Contact, Drive, Friction, Harmonic, Integrator, Joint, Pulley,
+    Run, Start, Step, Surface, Wrap,
 };
 use hihna::input::{self, Override};
 use hihna::layout::Layout;
+use hihna::load::Load;
 use hihna::profile::{Profile, Varying};
 use proptest::prelude::*;
 
@@ -93,6 +94,11 @@ fn belt() -> impl Strategy<Value = Belt> {
                 axial_factor: factor,
                 bending_factor: width,
                 damping_time,
+                joint: if elements % 2 == 0 {
+                    Joint::Shared
+                } else {
+                    Joint::Multipliers
+                },
                 first_node,
             },
         )
@@ -111,21 +117,42 @@ fn contact() -> impl Strategy<Value = Contact> {
             |(stiffness, damping, coefficient, second, points, flag)| Contact {
                 stiffness,
                 damping,
-                friction: if flag {
-                    Friction::CreepRate {
-                        coefficient,
-                        slope: second,
-                    }
+                friction: friction(points, coefficient, second),
+                back_friction: flag.then(|| friction(points + 1, second, coefficient)),
+                surface: if flag {
+                    Surface::Face
                 } else {
-                    Friction::Coulomb {
-                        coefficient,
-                        velocity: second,
-                    }
+                    Surface::CentreLine
                 },
                 points,
                 clamp_normal_force: flag,
             },
         )
+}
+
+/// One law after the other, by `kind`.
+fn friction(kind: usize, coefficient: f64, second: f64) -> Friction {
+    match kind % 4 {
+        0 => Friction::CreepRate {
+            coefficient,
+            slope: second,
+        },
+        1 => Friction::Coulomb {
+            coefficient,
+            velocity: second,
+        },
+        2 => Friction::Stribeck {
+            static_coefficient: coefficient,
+            sliding_coefficient: 0.5 * coefficient,
+            stribeck_velocity: second,
+            velocity: 0.1 * second,
+        },
+        _ => Friction::ElasticPlastic {
+            coefficient,
+            stiffness: second,
+            damping: coefficient,
+        },
+    }
 }
 
 /// Pulleys on a circle so that each is a corner of the belt's path, each with its own motion; the belt
@@ -150,6 +177,20 @@ fn pulleys() -> impl Strategy<Value = Vec<Pulley>> {
                     speed: (i == 0 && flag).then(|| profile.clone()),
                     angle: (i == 0 && !flag).then(|| profile.clone()),
                     inertia,
+                    groove_angle: flag.then_some(0.5 + radius),
+                    load: (i > 0 && flag).then_some(Load::Fan {
+                        torque: inertia,
+                        speed: inertia,
+                    }),
+                    irregularity: if i == 0 && flag {
+                        vec![Harmonic {
+                            order: 2.0,
+                            amplitude: radius,
+                            phase: 0.1,
+                        }]
+                    } else {
+                        Vec::new()
+                    },
                     torque: if i == 0 {
                         Profile::Constant(0.0)
                     } else {

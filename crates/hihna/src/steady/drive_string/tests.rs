@@ -1,7 +1,7 @@
 //! Drives in, names and signs out.
 
 use super::*;
-use crate::drive::{Belt, BeltElement, Contact, Friction, Run, Wrap};
+use crate::drive::{Belt, BeltElement, Contact, Friction, Joint, Run, Surface, Wrap};
 use crate::steady::string::Running;
 
 /// The closure is solved to 1e-12; sums of a dozen terms.
@@ -17,6 +17,9 @@ fn pulley(name: &str, center: [f64; 2], radius: f64) -> Pulley {
         angle: None,
         inertia: 0.0,
         torque: Profile::Constant(0.0),
+        load: None,
+        irregularity: Vec::new(),
+        groove_angle: None,
     }
 }
 
@@ -37,6 +40,7 @@ fn drive(tension: f64, youngs_modulus: f64, pulley: Vec<Pulley>) -> Drive {
             axial_factor: 1.0,
             bending_factor: 1.0,
             damping_time: 0.0,
+            joint: Joint::Shared,
             first_node: 0.0,
         },
         contact: Contact {
@@ -46,6 +50,8 @@ fn drive(tension: f64, youngs_modulus: f64, pulley: Vec<Pulley>) -> Drive {
                 coefficient: 0.6,
                 slope: 1.0e5,
             },
+            back_friction: None,
+            surface: Surface::CentreLine,
             points: 7,
             clamp_normal_force: false,
         },
