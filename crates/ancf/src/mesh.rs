@@ -63,7 +63,7 @@ impl<E: Element> Mesh<E> {
             assert!(E::NODE_PLACES.len() == E::NODES, "every node has its place");
         }
         assert!(
-            across > 0 && elements.len() % across == 0,
+            across > 0 && elements.len().is_multiple_of(across),
             "{} elements do not fill rows of {across}",
             elements.len()
         );
@@ -350,7 +350,7 @@ impl<E: Element> LaneKernel for AddForce<'_, E> {
 
     #[inline(always)]
     fn run<S: EightLanes>(self) {
-        with_element_size!(self, S, E)
+        with_element_size!(self, S, E);
     }
 }
 
@@ -393,7 +393,7 @@ impl<E: Element> LaneKernel for AddTangent<'_, E> {
 
     #[inline(always)]
     fn run<S: EightLanes>(self) {
-        with_element_size!(self, S, E)
+        with_element_size!(self, S, E);
     }
 }
 
