@@ -3,6 +3,7 @@
 pub mod assemble;
 pub mod contact;
 pub mod drive;
+pub mod free_belt;
 pub mod friction;
 pub mod history;
 pub mod input;

@@ -14,13 +14,19 @@
 //! or is only shown. A misprint keeps its printed value in `published`, with the value judged
 //! against in `reference` and the reason in `note`.
 
+mod base_drive;
 mod data;
+mod loaded_drive;
 mod markdown;
+mod other_drives;
 mod pendulum;
 mod planar_beams;
+mod ring_down;
 mod selection;
 mod spin_up;
+mod static_circle;
 mod string_drive;
+mod time_run;
 mod verdict;
 
 use ancf::dynamics::IntegrationError;
@@ -28,7 +34,9 @@ use ancf::structure::StructureError;
 use rayon::prelude::*;
 use thiserror::Error;
 
+use crate::free_belt::FreeBeltError;
 use crate::input::InputErrors;
+use crate::simulate::RunError;
 use crate::steady::drive_string::SteadyError;
 
 pub use data::{Case, CatalogueError, Row, catalogue};
@@ -51,6 +59,18 @@ const COMPUTATIONS: &[(&str, Compute)] = &[
     ("chapter-2/pendulum", pendulum::pendulum),
     ("chapter-2/table-2.5", pendulum::costs),
     ("chapter-2/spin-up", spin_up::spin_up),
+    ("chapter-3/figures-3.4-3.5", static_circle::figures_3_4_3_5),
+    ("chapter-3/figure-3.7", base_drive::figure_3_7),
+    ("chapter-3/figure-3.8", base_drive::figure_3_8),
+    ("chapter-3/figure-3.9", base_drive::figure_3_9),
+    (
+        "chapter-3/figures-3.10-3.20",
+        loaded_drive::figures_3_10_to_3_20,
+    ),
+    ("chapter-3/figure-3.21", base_drive::figure_3_21),
+    ("chapter-3/ring-down", base_drive::ring_downs),
+    ("chapter-3/three-pulleys", other_drives::three_pulleys),
+    ("chapter-3/stick-and-slip", other_drives::stick_and_slip),
     ("chapter-4-analytical/figures-4.4-4.5", string_drive::stiff),
     (
         "chapter-4-analytical/figures-4.11-4.14",
@@ -69,6 +89,7 @@ const COMPUTATIONS: &[(&str, Compute)] = &[
 /// The data files, in the order of the program's output.
 const DATA: &[&str] = &[
     include_str!("../../../validation/chapter-2.toml"),
+    include_str!("../../../validation/chapter-3.toml"),
     include_str!("../../../validation/chapter-4-analytical.toml"),
 ];
 
@@ -87,6 +108,18 @@ pub enum CaseError {
     /// A motion of the case cannot be followed.
     #[error(transparent)]
     Integration(#[from] IntegrationError),
+    /// A drive of the case does not run through.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// The case's belt off its pulleys finds no rest.
+    #[error(transparent)]
+    FreeBelt(#[from] FreeBeltError),
+    /// Energy or torque balance of a run does not close.
+    #[error("the audit of a run of the case fails")]
+    Audit,
+    /// The case asks for a column that histories do not have.
+    #[error("the history of a run has no column `{0}`, or no row at these times")]
+    NoColumn(String),
     /// The case's drive slips or is slack.
     #[error("the drive of the case does not run")]
     DoesNotRun,
