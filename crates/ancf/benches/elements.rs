@@ -7,7 +7,8 @@
 use std::hint::black_box;
 
 use ancf::element::{
-    BeltBeam2, BeltBeam3, BendingRigidity, CubicBeam2, Element, LinearBeam2, LinearBeam3, ThinPlate,
+    BeltBeam2, BeltBeam3, BendingRigidity, CubicBeam2, Element, LinearBeam2, LinearBeam3,
+    PlateQuadrature, ThinPlate,
 };
 use ancf::material::Isotropic;
 use ancf::scalar::{EightLanes, LaneKernel, Scalar, dispatch};
@@ -43,6 +44,15 @@ fn benches(criterion: &mut Criterion) {
     element(criterion, "spatial_belt_beam", &belt);
     let plate = ThinPlate::new(0.05, 0.04, 0.01, &material, BendingRigidity::Kirchhoff);
     element(criterion, "thin_plate", &plate);
+    let every_point = PlateQuadrature {
+        membrane: 5,
+        bending: 5,
+    };
+    element(
+        criterion,
+        "thin_plate_5x5",
+        &plate.with_quadrature(every_point),
+    );
 }
 
 fn element<E: Element>(criterion: &mut Criterion, name: &str, element: &E) {

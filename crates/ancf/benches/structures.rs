@@ -51,16 +51,16 @@ fn benches(criterion: &mut Criterion) {
 
     let rubber = material(2.07e7);
     for count in [4, 8] {
-        let length = LENGTH / f64::from(count);
-        let linear = pendulum(LinearBeam2::new(length, &section, &rubber), count as usize);
-        let cubic = pendulum(CubicBeam2::new(length, &section, &rubber), count as usize);
+        let length = LENGTH / count as f64;
+        let linear = pendulum(LinearBeam2::new(length, &section, &rubber), count);
+        let cubic = pendulum(CubicBeam2::new(length, &section, &rubber), count);
         bench_fall(criterion, &format!("pendulum, {count} linear"), &linear);
         bench_fall(criterion, &format!("pendulum, {count} cubic"), &cubic);
     }
 }
 
-/// One second with the explicit scheme, and with generalized-alpha, both with 1000 steps, or as many times
-/// twice that as the explicit scheme needs to be stable.
+/// One second with the explicit scheme and with generalized-alpha, each with the largest step of 1 ms, 0.5 ms,
+/// ... that leaves the tip within 1e-4 m of the time-converged one.
 fn bench_fall<E: LineElement>(
     criterion: &mut Criterion,
     name: &str,

@@ -16,8 +16,8 @@ fn main() -> Result<(), StructureError> {
     };
     println!("elements   tip x [m]   tip y [m]   reaction [N]   iterations");
     for count in [2, 4, 8, 16, 32, 64] {
-        let element = LinearBeam2::new(2.0 / f64::from(count), &section, &steel);
-        let mut beam = PlanarStructure::straight(element, count as usize, [0.0, 0.0], 0.0);
+        let element = LinearBeam2::new(2.0 / count as f64, &section, &steel);
+        let mut beam = PlanarStructure::straight(element, count, [0.0, 0.0], 0.0);
         beam.clamp(0);
         beam.force(beam.last(), [0.0, -5.0e5]);
         let bent = beam.equilibrium()?;

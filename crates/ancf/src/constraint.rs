@@ -378,20 +378,15 @@ impl ConstraintSet {
                 }
                 names
             };
-            match candidates
-                .iter()
-                .find(|candidate| holders(candidate).is_empty())
-            {
-                Some(candidate) => chosen.push(*candidate),
-                None => {
-                    let mut others: Vec<String> = candidates.iter().flat_map(holders).collect();
-                    others.dedup();
-                    return Err(ConstraintError::Overdetermined {
-                        name: attachment.name.clone(),
-                        others,
-                    });
-                }
-            }
+            let Some(candidate) = (candidates.iter()).find(|one| holders(one).is_empty()) else {
+                let mut others: Vec<String> = candidates.iter().flat_map(holders).collect();
+                others.dedup();
+                return Err(ConstraintError::Overdetermined {
+                    name: attachment.name.clone(),
+                    others,
+                });
+            };
+            chosen.push(*candidate);
         }
         let mut order: Vec<Assignment> = Vec::new();
         while !chosen.is_empty() {

@@ -25,6 +25,7 @@ pub use beam3_belt::BeltBeam3;
 pub use beam3_linear::LinearBeam3;
 pub use plate_thin::{BendingRigidity, PlateQuadrature, ThinPlate};
 
+use crate::mesh::kernels::BodyKernels;
 use crate::scalar::Scalar;
 use crate::strain::SurfaceGradient;
 
@@ -34,7 +35,7 @@ use crate::strain::SurfaceGradient;
 /// `[r1x, r1y, r1_x x, r1_x y, ...]`, a slice of length [`Element::DOF`].
 /// Two elements that compare equal have the same reference shape, section and material, and may be
 /// computed side by side in SIMD lanes.
-pub trait Element: Clone + PartialEq + std::fmt::Debug + Send + Sync {
+pub trait Element: BodyKernels + Clone + PartialEq + std::fmt::Debug + Send + Sync {
     /// Dimension of space: 2 or 3.
     const DIMENSION: usize;
     /// Nodes of the element.

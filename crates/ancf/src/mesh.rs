@@ -1,11 +1,12 @@
 //! One flexible body: a chain of elements, or a strip of them side by side, open or closed to a loop.
 
+pub mod kernels;
 mod rows;
 
 use self::rows::{Rows, is_chain};
 use crate::element::Element;
 use crate::linear::BorderedMatrix;
-use crate::scalar::{EightLanes, LaneKernel, dispatch};
+use crate::scalar::EightLanes;
 
 /// Elements computed side by side.
 const LANES: usize = 8;
@@ -63,7 +64,7 @@ impl<E: Element> Mesh<E> {
             assert!(E::NODE_PLACES.len() == E::NODES, "every node has its place");
         }
         assert!(
-            across > 0 && elements.len() % across == 0,
+            across > 0 && elements.len().is_multiple_of(across),
             "{} elements do not fill rows of {across}",
             elements.len()
         );
@@ -173,7 +174,7 @@ impl<E: Element> Mesh<E> {
 
     /// Strain energy [J] of the configuration `q`.
     pub fn energy(&self, q: &[f64]) -> f64 {
-        dispatch(Energy { mesh: self, q })
+        E::body_energy(self, q)
     }
 
     /// Power [W] that internal damping takes in the state `(q, v)`.
@@ -193,12 +194,7 @@ impl<E: Element> Mesh<E> {
 
     /// Adds elastic and internal damping forces of the state `(q, v)` to `f`.
     pub fn add_force(&self, q: &[f64], v: &[f64], f: &mut [f64]) {
-        dispatch(AddForce {
-            mesh: self,
-            q,
-            v,
-            f,
-        });
+        E::add_body_force(self, q, v, f);
     }
 
     /// Adds `position_factor * K + velocity_factor * C` of elastic and damping forces to `matrix`,
@@ -211,14 +207,7 @@ impl<E: Element> Mesh<E> {
         velocity_factor: f64,
         matrix: &mut BorderedMatrix,
     ) {
-        dispatch(AddTangent {
-            mesh: self,
-            q,
-            v,
-            position_factor,
-            velocity_factor,
-            matrix,
-        });
+        E::add_body_tangent(self, q, v, position_factor, velocity_factor, matrix);
     }
 
     /// The batches of equal elements.
@@ -287,155 +276,9 @@ impl<E: Element> Mesh<E> {
     }
 }
 
-/// Runs `$self.sized::<S, N>()` with working memory for the `N` coordinates of an element, few for a
-/// planar beam: the size is known to the compiler, which drops the other calls.
-macro_rules! with_element_size {
-    ($self:ident, $scalar:ty, $element:ty) => {
-        if const { <$element>::DOF <= 12 } {
-            $self.sized::<$scalar, 12>()
-        } else if const { <$element>::DOF <= 24 } {
-            $self.sized::<$scalar, 24>()
-        } else {
-            $self.sized::<$scalar, 36>()
-        }
-    };
-}
-
 /// Consecutive equal elements computed together.
 #[derive(Clone, Copy)]
 struct Batch {
     first: usize,
     count: usize,
-}
-
-/// The work of [`Mesh::energy`].
-struct Energy<'a, E> {
-    mesh: &'a Mesh<E>,
-    q: &'a [f64],
-}
-
-impl<E: Element> LaneKernel for Energy<'_, E> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn run<S: EightLanes>(self) -> f64 {
-        with_element_size!(self, S, E)
-    }
-}
-
-impl<E: Element> Energy<'_, E> {
-    #[inline(always)]
-    fn sized<S: EightLanes, const N: usize>(self) -> f64 {
-        let mut energy = 0.0;
-        for batch in self.mesh.batches() {
-            let element = &self.mesh.elements[batch.first];
-            let e = self.mesh.load::<S, N>(batch, self.q);
-            let lanes = element.energy(&e[..E::DOF]).store();
-            energy += lanes[..batch.count].iter().sum::<f64>();
-        }
-        energy
-    }
-}
-
-/// The work of [`Mesh::add_force`].
-struct AddForce<'a, E> {
-    mesh: &'a Mesh<E>,
-    q: &'a [f64],
-    v: &'a [f64],
-    f: &'a mut [f64],
-}
-
-impl<E: Element> LaneKernel for AddForce<'_, E> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: EightLanes>(self) {
-        with_element_size!(self, S, E)
-    }
-}
-
-impl<E: Element> AddForce<'_, E> {
-    #[inline(always)]
-    fn sized<S: EightLanes, const N: usize>(self) {
-        for batch in self.mesh.batches() {
-            let element = &self.mesh.elements[batch.first];
-            let e = self.mesh.load::<S, N>(batch, self.q);
-            let mut force = [S::zero(); N];
-            element.force(&e[..E::DOF], &mut force[..E::DOF]);
-            if element.is_damped() {
-                let rate = self.mesh.load::<S, N>(batch, self.v);
-                element.add_damping_force(&e[..E::DOF], &rate[..E::DOF], &mut force[..E::DOF]);
-            }
-            let mut stored = [[0.0; LANES]; N];
-            for (lanes, value) in stored.iter_mut().zip(&force) {
-                *lanes = value.store();
-            }
-            for lane in 0..batch.count {
-                let local: [f64; N] = std::array::from_fn(|i| stored[i][lane]);
-                self.mesh.scatter(batch.first + lane, &local, self.f);
-            }
-        }
-    }
-}
-
-/// The work of [`Mesh::add_tangent`].
-struct AddTangent<'a, E> {
-    mesh: &'a Mesh<E>,
-    q: &'a [f64],
-    v: &'a [f64],
-    position_factor: f64,
-    velocity_factor: f64,
-    matrix: &'a mut BorderedMatrix,
-}
-
-impl<E: Element> LaneKernel for AddTangent<'_, E> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: EightLanes>(self) {
-        with_element_size!(self, S, E)
-    }
-}
-
-impl<E: Element> AddTangent<'_, E> {
-    #[inline(always)]
-    fn sized<S: EightLanes, const N: usize>(self) {
-        let square = E::DOF * E::DOF;
-        let mut tangent = [[S::zero(); N]; N];
-        let mut stored = [[[0.0; LANES]; N]; N];
-        let mut local = [[0.0; N]; N];
-        let tangent = &mut tangent.as_flattened_mut()[..square];
-        let stored = &mut stored.as_flattened_mut()[..square];
-        let local = &mut local.as_flattened_mut()[..square];
-        for batch in self.mesh.batches() {
-            let element = &self.mesh.elements[batch.first];
-            let e = self.mesh.load::<S, N>(batch, self.q);
-            element.stiffness(&e[..E::DOF], tangent);
-            let mut factor = self.position_factor;
-            if element.is_damped() {
-                let rate = self.mesh.load::<S, N>(batch, self.v);
-                for value in &mut *tangent {
-                    *value = *value * self.position_factor;
-                }
-                factor = 1.0;
-                element.add_damping_tangent(
-                    &e[..E::DOF],
-                    &rate[..E::DOF],
-                    self.position_factor,
-                    self.velocity_factor,
-                    tangent,
-                );
-            }
-            for (lanes, value) in stored.iter_mut().zip(&*tangent) {
-                *lanes = value.store();
-            }
-            for lane in 0..batch.count {
-                for (value, lanes) in local.iter_mut().zip(&*stored) {
-                    *value = lanes[lane];
-                }
-                self.mesh
-                    .scatter_matrix(batch.first + lane, factor, local, self.matrix);
-            }
-        }
-    }
 }

@@ -8,7 +8,7 @@ use ancf::constraint::{
     BodyAttachment, Constant, ConstraintError, ConstraintForm, ConstraintSet, LinearEquation,
     SpinUp, TurnedComponent,
 };
-use ancf::linear::{BorderedMatrix, Structure};
+use ancf::linear::{BorderedMatrix, CyclicSolver, Solver, Structure};
 use ancf::system::{Motion, State};
 
 const COORDINATES: Structure = Structure {
@@ -203,6 +203,53 @@ fn multipliers_have_their_tangent() {
         matrix.multiply(&unit, &mut product);
         assert!(!differs(product[column], value, 0.0));
     }
+}
+
+/// Both forms solve the same equations: corrections of an arbitrary matrix (diagonal 50 against rows of
+/// entries below 1) agree to a few roundings. An inclined line within a node, a node tied to a body, and a
+/// body tied to the other.
+#[test]
+fn both_forms_solve_the_same_equations() {
+    let solutions = [ConstraintForm::Multipliers, ConstraintForm::Elimination].map(|form| {
+        let equations = vec![
+            equation("line", &[(0, 0.6), (1, 0.8)], 0.0),
+            equation("tie", &[(5, 1.0), (BODY, -2.0), (BODY + 2, 0.3)], 0.0),
+            equation("bodies", &[(BODY + 1, 1.0), (BODY + 4, -1.0)], 0.0),
+        ];
+        let set = set(equations, Vec::new(), form).expect("they are compatible");
+        let border = COORDINATES.border + set.multipliers();
+        let structure = Structure {
+            border,
+            ..COORDINATES
+        };
+        let mut matrix = BorderedMatrix::new(structure);
+        let values = numbers(structure.size() * structure.size(), 6);
+        for row in 0..COORDINATES.size() {
+            for column in 0..COORDINATES.size() {
+                let far = row.max(column) < 12 && (row / 4).abs_diff(column / 4) > 1;
+                if !far {
+                    matrix.add(row, column, values[18 * row + column]);
+                }
+            }
+            matrix.add(row, row, 50.0);
+        }
+        let q = vec![0.0; structure.size()];
+        let mut right = numbers(structure.size(), 7);
+        right[COORDINATES.size()..].fill(0.0);
+        set.complete_matrix(&q, &q, 1.0, &mut matrix);
+        set.complete_residual(&q, &q, &mut right);
+        let mut solver = CyclicSolver::new(structure);
+        solver.factor(&matrix).expect("it is regular");
+        solver.solve(&mut right);
+        right
+    });
+    for i in 0..COORDINATES.size() {
+        assert!(
+            !differs(solutions[0][i], solutions[1][i], 1e-14),
+            "coordinate {i}"
+        );
+    }
+    assert!(differs(solutions[0][5], 0.0, 1e-6));
 }
 
 #[test]

@@ -348,7 +348,76 @@ fn bending_patch_test() {
     }
 }
 
-/// A strip of plates assembled in lanes and by hand, open and closed, one and three elements across:
+/// A strip assembled by hand.
+struct ByHand {
+    /// Any state, all nodes off the plane.
+    q: Vec<f64>,
+    energy: f64,
+    force: Vec<f64>,
+    tangent: Mat<f64>,
+    mass: Mat<f64>,
+}
+
+impl ByHand {
+    fn new(elements: &[ThinPlate], across: usize, sections: usize) -> Self {
+        let places = |element: usize| -> Vec<usize> {
+            let (i, j) = (element / across, element % across);
+            ThinPlate::NODE_PLACES
+                .iter()
+                .flat_map(|place| {
+                    let node = (i + place[0]) % sections * (across + 1) + j + place[1];
+                    9 * node..9 * node + 9
+                })
+                .collect()
+        };
+        let size = 9 * sections * (across + 1);
+        let mut by_hand = Self {
+            q: vec![0.0; size],
+            energy: 0.0,
+            force: vec![0.0; size],
+            tangent: Mat::zeros(size, size),
+            mass: Mat::zeros(size, size),
+        };
+        for (k, element) in elements.iter().enumerate() {
+            let state = deformed_state(element, k as u64);
+            for (place, value) in places(k).into_iter().zip(state) {
+                by_hand.q[place] = value;
+            }
+        }
+        for (k, element) in elements.iter().enumerate() {
+            by_hand.add(element, &places(k));
+        }
+        by_hand
+    }
+
+    fn add(&mut self, element: &ThinPlate, places: &[usize]) {
+        let e: Vec<f64> = places.iter().map(|place| self.q[*place]).collect();
+        let mut force = [0.0; 36];
+        let (mut stiffness, mut mass) = (vec![0.0; 36 * 36], vec![0.0; 144]);
+        element.force(&e[..], &mut force);
+        element.stiffness(&e[..], &mut stiffness);
+        element.vector_mass(&mut mass);
+        self.energy += element.energy(&e[..]);
+        for (i, row) in places.iter().enumerate() {
+            self.force[*row] += force[i];
+            for (j, column) in places.iter().enumerate() {
+                self.tangent[(*row, *column)] += stiffness[36 * i + j];
+                if i % 3 == j % 3 {
+                    self.mass[(*row, *column)] += mass[12 * (i / 3) + j / 3];
+                }
+            }
+        }
+    }
+}
+
+fn assert_close(what: &str, value: f64, expected: f64, scale: f64) {
+    assert!(
+        (value - expected).abs() < 1e-13 * scale,
+        "{what}: {value} {expected}"
+    );
+}
+
+/// A strip of plates assembled in lanes and by hand, open and closed, one to three elements across:
 /// forces, energy, mass and tangent; and the cyclic solver inverts the tangent. Round-off.
 #[test]
 fn strips_assemble_like_their_elements() {
@@ -358,22 +427,13 @@ fn strips_assemble_like_their_elements() {
         (4, 1, true, true),
         (3, 2, true, false),
     ] {
-        let elements: Vec<ThinPlate> = (0..along * across)
-            .map(|k| {
-                let width = if equal {
-                    WIDTH
-                } else {
-                    WIDTH * (1.0 + 0.1 * (k % across) as f64)
-                };
-                ThinPlate::new(
-                    LENGTH,
-                    width,
-                    THICKNESS,
-                    &MATERIAL,
-                    BendingRigidity::Kirchhoff,
-                )
-            })
-            .collect();
+        let element = |k: usize| {
+            let wider = if equal { 0.0 } else { (k % across) as f64 };
+            let width = WIDTH * (1.0 + 0.1 * wider);
+            let rigidity = BendingRigidity::Kirchhoff;
+            ThinPlate::new(LENGTH, width, THICKNESS, &MATERIAL, rigidity)
+        };
+        let elements: Vec<ThinPlate> = (0..along * across).map(element).collect();
         let mesh = if closed {
             Mesh::closed_strip(elements.clone(), across)
         } else {
@@ -385,58 +445,15 @@ fn strips_assemble_like_their_elements() {
         assert_eq!(mesh.nodes(), sections * (across + 1));
         let size = mesh.dof();
         assert_eq!(mesh.scales(LENGTH, WIDTH).len(), size);
-        let places = |element: usize| -> Vec<usize> {
-            let (i, j) = (element / across, element % across);
-            ThinPlate::NODE_PLACES
-                .iter()
-                .flat_map(|place| {
-                    let node = (i + place[0]) % sections * (across + 1) + j + place[1];
-                    9 * node..9 * node + 9
-                })
-                .collect()
-        };
-        // Any state, all nodes off the plane.
-        let mut q = vec![0.0; size];
-        for k in 0..elements.len() {
-            let state = deformed_state(&elements[k], k as u64);
-            for (place, value) in places(k).into_iter().zip(state) {
-                q[place] = value;
-            }
-        }
-        let (mut force, mut energy) = (vec![0.0; size], 0.0);
-        let mut tangent = Mat::<f64>::zeros(size, size);
-        let mut mass = Mat::<f64>::zeros(size, size);
-        for (k, element) in elements.iter().enumerate() {
-            let places = places(k);
-            let e: Vec<f64> = places.iter().map(|place| q[*place]).collect();
-            let mut local = [0.0; 36];
-            let (mut stiffness, mut weights) = (vec![0.0; 36 * 36], vec![0.0; 144]);
-            element.force(&e[..], &mut local);
-            element.stiffness(&e[..], &mut stiffness);
-            element.vector_mass(&mut weights);
-            energy += element.energy(&e[..]);
-            for i in 0..36 {
-                force[places[i]] += local[i];
-                for j in 0..36 {
-                    tangent[(places[i], places[j])] += stiffness[36 * i + j];
-                    if i % 3 == j % 3 {
-                        mass[(places[i], places[j])] += weights[12 * (i / 3) + j / 3];
-                    }
-                }
-            }
-        }
-        let close = |what: &str, value: f64, expected: f64, scale: f64| {
-            assert!(
-                (value - expected).abs() < 1e-13 * scale,
-                "{what}: {value} {expected}"
-            );
-        };
-        close("energy", mesh.energy(&q), energy, energy);
-        let mut assembled = vec![0.0; size];
-        mesh.add_force(&q, &q, &mut assembled);
+
+        let by_hand = ByHand::new(&elements, across, sections);
+        let q = &by_hand.q;
+        assert_close("energy", mesh.energy(q), by_hand.energy, by_hand.energy);
+        let mut force = vec![0.0; size];
+        mesh.add_force(q, q, &mut force);
         let largest = force.iter().fold(0.0f64, |most, f| most.max(f.abs()));
-        for i in 0..size {
-            close("force", assembled[i], force[i], largest);
+        for (value, expected) in force.iter().zip(&by_hand.force) {
+            assert_close("force", *value, *expected, largest);
         }
         let structure = Structure {
             sections,
@@ -444,27 +461,29 @@ fn strips_assemble_like_their_elements() {
             closed,
             border: 0,
         };
-        let mut matrix = BorderedMatrix::new(structure);
-        let mut mass_matrix = BorderedMatrix::new(structure);
-        mesh.add_tangent(&q, &q, 1.0, 0.0, &mut matrix);
-        mesh.add_mass(&mut mass_matrix);
-        let (most, heaviest) = (tangent.norm_max(), mass.norm_max());
-        for (row, column, value) in matrix.triplets() {
-            close("tangent", value, tangent[(row, column)], most);
+        let mut tangent = BorderedMatrix::new(structure);
+        let mut mass = BorderedMatrix::new(structure);
+        mesh.add_tangent(q, q, 1.0, 0.0, &mut tangent);
+        mesh.add_mass(&mut mass);
+        let stiffest = by_hand.tangent.norm_max();
+        let heaviest = by_hand.mass.norm_max();
+        for (row, column, value) in tangent.triplets() {
+            let expected = by_hand.tangent[(row, column)];
+            assert_close("tangent", value, expected, stiffest);
         }
-        for (row, column, value) in mass_matrix.triplets() {
-            close("mass", value, mass[(row, column)], heaviest);
+        for (row, column, value) in mass.triplets() {
+            assert_close("mass", value, by_hand.mass[(row, column)], heaviest);
         }
         // Held to the ground by a multiple of the mass, the tangent has an inverse.
-        matrix.add_scaled(1e3 * most / heaviest, &mass_matrix);
+        tangent.add_scaled(1e3 * stiffest / heaviest, &mass);
         let mut solver = CyclicSolver::new(structure);
-        solver.factor(&matrix).unwrap();
+        solver.factor(&tangent).unwrap();
         let mut x = force.clone();
         solver.solve(&mut x);
         let mut back = vec![0.0; size];
-        matrix.multiply(&x, &mut back);
-        for i in 0..size {
-            close("solution", back[i], force[i], 1e2 * largest);
+        tangent.multiply(&x, &mut back);
+        for (value, expected) in back.iter().zip(&force) {
+            assert_close("solution", *value, *expected, 1e2 * largest);
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ancf::constraint::{ConstraintError, ConstraintForm};
+use ancf::dynamics::Stage;
 use ancf::element::{CubicBeam2, LineElement, LinearBeam2};
 use ancf::material::Isotropic;
 use ancf::section::PlanarSection;
@@ -305,6 +306,38 @@ fn a_free_beam_has_three_zero_frequencies() {
     }
 }
 
+/// A rigid body hung on a held node is a physical pendulum, `w² = m g a / (I + m a²)`. All of its stiffness is
+/// the multipliers' own tangent. The eigenvalue carries rounding errors of the largest: 1e-16 of 1e12 1/s².
+#[test]
+fn a_hanging_body_swings_as_a_physical_pendulum() {
+    let (mass, inertia, arm, gravity) = (3.0, 0.5, 0.8, 9.81);
+    let mut beam = straight(2, 0.0);
+    let body = beam.body(RigidBody {
+        name: "pendulum".to_owned(),
+        mass,
+        inertia,
+        place: [0.0, -arm],
+        angle: 0.7,
+    });
+    beam.clamp(0)
+        .hinge(0, body)
+        .body_load(body, [0.0, -mass * gravity], 0.0);
+    let mut system = beam.build().expect("it is sound");
+    let mut motion = beam.at_rest(&system);
+    // At rest in equilibrium the accelerations vanish, and their multipliers are those of statics.
+    Stage::new(&system, 1e-9).accelerations(&mut system, &mut motion);
+    let rest = Equilibrium {
+        reactions: vec![0.0; motion.q.len()],
+        q: motion.q,
+        multipliers: motion.a,
+        corrections: Vec::new(),
+    };
+    let modes = beam.modes(&rest).expect("it has modes");
+    let expected = (mass * gravity * arm / (inertia + mass * arm * arm)).sqrt();
+    let found = modes[0].frequency;
+    assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+}
+
 /// Circular frequency of a simply supported Timoshenko beam in its `n`-th mode:
 ///
 /// ```text
@@ -356,8 +389,8 @@ fn bending_frequencies_are_timoshenkos() {
     };
     let (coarse, fine) = (bending(16), bending(32));
     for (n, tolerance) in [(1, 1e-5), (2, 1e-4), (3, 1e-3)] {
-        let exact = timoshenko(f64::from(n));
-        let errors = [coarse[n as usize - 1], fine[n as usize - 1]].map(|w| w / exact - 1.0);
+        let exact = timoshenko(n as f64);
+        let errors = [coarse[n - 1], fine[n - 1]].map(|w| w / exact - 1.0);
         let order = (errors[0] / errors[1]).log2();
         assert!((order - 2.0).abs() < 0.1, "mode {n}: {errors:?}");
         let extrapolated = (4.0 * errors[1] - errors[0]) / 3.0;
@@ -398,11 +431,11 @@ fn steady_rotation_stretches_as_theory_says() {
 fn a_rotating_cantilever_stiffens() {
     let section = PlanarSection::rectangle(0.1, 0.02);
     let count = 32;
-    let element = LinearBeam2::new(LENGTH / f64::from(count), &section, &STEEL);
+    let element = LinearBeam2::new(LENGTH / count as f64, &section, &STEEL);
     let unit = (STEEL.youngs_modulus * section.second_moment
         / (STEEL.density * section.area * LENGTH.powi(4)))
     .sqrt();
-    let mut beam = PlanarStructure::straight(element, count as usize, [0.0; 2], 0.0);
+    let mut beam = PlanarStructure::straight(element, count, [0.0; 2], 0.0);
     beam.clamp(0).rotating_frame(2.0 * unit);
     let modes = beam.modes(&solve(&beam)).expect("it has modes");
     let first = modes[0].frequency / unit;

@@ -125,7 +125,7 @@ impl Failure {
                 "check the length of the belt with `hihna check`; more `belt.elements` or a lower `contact.stiffness` make the start easier"
             }
             Self::Run(RunError::Step { .. }) => {
-                "try more `belt.elements`, a smaller `run.accuracy`, a lower `contact.stiffness` or a gentler speed; with `--set KEY=VALUE` the file can stay as it is"
+                "something is too steep there: try a lower `contact.friction.slope` (or a larger `velocity`), a lower `contact.stiffness` or `contact.damping`, more `belt.elements`, a smaller `run.accuracy` or fixed `run.step`, or a gentler speed; with `--set KEY=VALUE` the file can stay as it is"
             }
             Self::Run(RunError::Stopped { .. }) => "nothing was written",
             Self::Argument { help, .. } => help,

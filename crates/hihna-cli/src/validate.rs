@@ -153,8 +153,9 @@ fn in_words(cases: &[&Case], findings: &[Finding]) -> String {
     };
     let _ = writeln!(
         text,
-        "{} cases: {} values passed, {} failed, {} only shown",
+        "{} {}: {} values passed, {} failed, {} only shown",
         cases.len(),
+        if cases.len() == 1 { "case" } else { "cases" },
         count(Verdict::Passed),
         count(Verdict::Failed),
         count(Verdict::Shown),

@@ -269,7 +269,7 @@ fn out_writes_a_whole_folder() {
     let profile = fs::read_to_string(here.join("profile.csv")).unwrap();
     assert_eq!(
         profile.lines().next().unwrap(),
-        "time,material_coordinate,x,y,z,tension,strain_green,strain_engineering,strain_true,\
+        "time,material_coordinate,x,y,z,tension,element_tension,strain_green,strain_engineering,strain_true,\
          strain_almansi,jacobian,speed,normal_force,friction_force,slip_speed,pulley"
     );
     assert!(profile.lines().count() > 400);

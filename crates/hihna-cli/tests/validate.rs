@@ -78,7 +78,7 @@ fn the_object_has_a_row_for_each_quantity() {
 #[test]
 fn one_case_can_be_asked_for_and_all_be_listed() {
     let (table, _) = told(&["chapter-4-analytical/speed-loss"], 0);
-    assert!(table.contains("1 cases: 7 values passed"), "{table}");
+    assert!(table.contains("1 case: 7 values passed"), "{table}");
     let (list, _) = told(&["--list"], 0);
     assert!(
         list.contains("chapter-4-analytical/speed-loss") && !list.contains("passed"),

@@ -15,15 +15,19 @@ use ancf::system::{self, Mechanics, RigidCoordinate, System};
 use thiserror::Error;
 
 use crate::contact::{BeltContact, ContactPulley, Penalty};
-use crate::drive::{Belt, Drive, Harmonic, Pulley};
+use crate::drive::{Belt, BeltElement, Drive, Harmonic, Pulley};
 use crate::friction::{Frictionless, Law};
 use crate::layout::{self, Layout, LayoutError};
 use crate::profile::Profile;
 
 /// Stretch beyond which a belt is taken to be the wrong one.
 const LARGEST_STRETCH: f64 = 2.0;
-/// Turning of the belt within one element beyond which contact is resolved poorly [rad].
+/// Turning of the belt within one element beyond which contact is resolved poorly [rad]: of elements
+/// that bend, and of straight ones.
 const LARGEST_TURN: f64 = 1.05;
+const LARGEST_TURN_STRAIGHT: f64 = 0.2;
+/// Turning within one element that no loop can have: it would lie around more than half of the pulley.
+const IMPOSSIBLE_TURN: f64 = std::f64::consts::PI;
 
 /// A drive that cannot be put together.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -34,6 +38,18 @@ pub enum AssemblyError {
     /// The belt's joint cannot be made.
     #[error(transparent)]
     Joint(#[from] ConstraintError),
+    /// An element would lie around more than half of a pulley.
+    #[error(
+        "too few elements to close the loop: one would turn by {turn:.0} degrees around pulley `{pulley}`; use at least {elements}"
+    )]
+    TooFewElements {
+        /// The smallest pulley.
+        pulley: String,
+        /// Turning of one element [degrees].
+        turn: f64,
+        /// Number of elements that resolves the contact.
+        elements: usize,
+    },
     /// The belt is longer than its path.
     #[error(
         "the belt is too long: unstretched {length:.6} m, but the path around the pulleys is only {path:.6} m ({excess:.6} m less); a length below {path:.6} m fits"
@@ -147,7 +163,8 @@ fn stretch_under(load: f64) -> f64 {
     f
 }
 
-/// A drive ready to settle and run. Its pulleys are frictionless until [`Assembly::release`].
+/// A drive ready to settle and run. Its pulleys have neither friction nor external torques until
+/// [`Assembly::release`].
 #[derive(Debug)]
 pub struct Assembly<E> {
     /// The mechanical system.
@@ -220,6 +237,7 @@ impl<E: BeltElementType> Assembly<E> {
         let belt = &drive.belt;
         let layout = Layout::of(drive)?;
         let mounting = Mounting::new(belt, &layout)?;
+        closable(drive, &mounting)?;
         let count = belt.elements;
         let length = mounting.length / count as f64;
         let mesh = Mesh::closed(vec![E::for_belt(belt, length); count]);
@@ -260,13 +278,16 @@ impl<E: BeltElementType> Assembly<E> {
         Ok(())
     }
 
-    /// Lets the friction of `drive` act.
+    /// Lets the friction of `drive` and the external torques act.
     pub fn release(&mut self, drive: &Drive) {
         let laws = drive
             .pulley
             .iter()
             .map(|pulley| Law::new(drive.friction_on(pulley), pulley.grip()));
         self.system.law.set_friction(laws);
+        for (contact, pulley) in self.system.law.pulleys.iter_mut().zip(&drive.pulley) {
+            contact.external = pulley.external_torque();
+        }
     }
 }
 
@@ -326,7 +347,7 @@ fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &layout::Arc) -> ContactP
         // The section's slope points to the left of the path: to the centre of a pulley that the path
         // turns about counter-clockwise.
         height: drive.pitch_offset() * arc.sweep.signum(),
-        external: pulley.external_torque(),
+        external: Profile::Constant(0.0).into(),
     }
 }
 
@@ -397,20 +418,45 @@ impl system::Motion for ByAngle {
 
 /// Warns of elements that are long against the smallest pulley.
 pub fn coarse_mesh(drive: &Drive, mounting: &Mounting) -> Option<Warning> {
-    let smallest = drive
-        .pulley
-        .iter()
-        .min_by(|a, b| a.radius.total_cmp(&b.radius))?;
+    let (pulley, turn, elements) = largest_turn(drive, mounting)?;
+    (turn > allowed_turn(drive)).then(|| Warning::CoarseMesh {
+        pulley: pulley.name.clone(),
+        turn: turn.to_degrees(),
+        elements,
+    })
+}
+
+/// Refuses elements so long that they cannot make a loop around the smallest pulley.
+pub fn closable(drive: &Drive, mounting: &Mounting) -> Result<(), AssemblyError> {
+    match largest_turn(drive, mounting) {
+        Some((pulley, turn, elements)) if turn > IMPOSSIBLE_TURN => {
+            Err(AssemblyError::TooFewElements {
+                pulley: pulley.name.clone(),
+                turn: turn.to_degrees(),
+                elements,
+            })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn allowed_turn(drive: &Drive) -> f64 {
+    match drive.belt.element {
+        BeltElement::BeltBeam | BeltElement::CubicBeam => LARGEST_TURN,
+        BeltElement::LinearBeam => LARGEST_TURN_STRAIGHT,
+    }
+}
+
+/// The smallest pulley, how far an element turns around it [rad], and how many elements would turn no
+/// further than allowed.
+fn largest_turn<'a>(drive: &'a Drive, mounting: &Mounting) -> Option<(&'a Pulley, f64, usize)> {
+    let smallest = (drive.pulley.iter()).min_by(|a, b| a.radius.total_cmp(&b.radius))?;
     let turn = mounting.path / drive.belt.elements as f64 / smallest.radius;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a positive count of elements"
     )]
-    let elements = (mounting.path / (smallest.radius * LARGEST_TURN)).ceil() as usize;
-    (turn > LARGEST_TURN).then(|| Warning::CoarseMesh {
-        pulley: smallest.name.clone(),
-        turn: turn.to_degrees(),
-        elements,
-    })
+    let elements = (mounting.path / (smallest.radius * allowed_turn(drive))).ceil() as usize;
+    Some((smallest, turn, elements))
 }

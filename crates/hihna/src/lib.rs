@@ -18,3 +18,8 @@ pub mod steady;
 pub mod summary;
 pub mod units;
 pub mod validate;
+
+/// The Rust code of the README compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

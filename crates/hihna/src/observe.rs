@@ -77,6 +77,8 @@ pub struct Powers {
     pub contact: f64,
     /// Taken by the damping of the belt.
     pub damping: f64,
+    /// Put in or taken out at each pulley, summed without sign.
+    pub turnover: f64,
 }
 
 impl Powers {
@@ -89,6 +91,7 @@ impl Powers {
             friction: self.friction + factor * other.friction,
             contact: self.contact + factor * other.contact,
             damping: self.damping + factor * other.damping,
+            turnover: self.turnover + factor * other.turnover,
         }
     }
 }
@@ -208,6 +211,7 @@ impl Observer {
             } else {
                 powers.load += external * speed;
             }
+            powers.turnover += (external * speed).abs();
             powers.friction += contact.friction_loss;
             powers.contact += contact.contact_loss;
         }

@@ -21,6 +21,20 @@ pub enum RecordError {
         /// The folder.
         path: PathBuf,
     },
+    /// What stands there is not a result folder.
+    #[error("{} is not a folder of results alone, so --force does not replace it; choose another with --out", path.display())]
+    NotResults {
+        /// The place.
+        path: PathBuf,
+    },
+    /// The file system refused twice: the old results could not be put back.
+    #[error("cannot write the result folder: {cause}; the results that stood in its place are now in {}", aside.display())]
+    Stranded {
+        /// Where the old results are.
+        aside: PathBuf,
+        /// Why.
+        cause: io::Error,
+    },
     /// The file system refused.
     #[error("cannot write the result folder {}: {cause}; choose another place with --out", path.display())]
     Io {
@@ -77,11 +91,16 @@ pub struct Folder {
 impl Folder {
     /// An empty folder that is to stand at `place`; there may be one already if `overwrite`.
     pub fn new(place: &Path, overwrite: bool) -> Result<Self, RecordError> {
-        check_free(place, overwrite)?;
+        // The working directory itself may be moved aside: no relative path survives that.
+        let place = std::path::absolute(place).map_err(|cause| RecordError::Io {
+            path: place.into(),
+            cause,
+        })?;
+        check_free(&place, overwrite)?;
         Ok(Self {
-            place: place.into(),
+            files: staging(&place)?,
+            place,
             overwrite,
-            files: staging(place)?,
         })
     }
 
@@ -116,7 +135,11 @@ impl Folder {
             let aside = old.path().join("old");
             fs::rename(place, &aside).map_err(|cause| self.refused(cause))?;
             if let Err(cause) = fs::rename(files, place) {
-                let _ = fs::rename(&aside, place);
+                if fs::rename(&aside, place).is_err() {
+                    // Not lost: the old results stay where they are.
+                    let _ = old.keep();
+                    return Err(RecordError::Stranded { aside, cause });
+                }
                 return Err(self.refused(cause));
             }
         } else {
@@ -155,10 +178,30 @@ impl Folder {
 }
 
 fn check_free(place: &Path, overwrite: bool) -> Result<(), RecordError> {
-    if place.exists() && !overwrite {
+    if !place.exists() && !place.is_symlink() {
+        return Ok(());
+    }
+    if !overwrite {
         return Err(RecordError::Exists { path: place.into() });
     }
+    if !is_result_folder(place) {
+        return Err(RecordError::NotResults { path: place.into() });
+    }
     Ok(())
+}
+
+/// Files that a result folder may hold.
+const FILES: [&str; 4] = ["drive.toml", "summary.json", "history.csv", "profile.csv"];
+
+/// Whether `place` is a folder (no link to one) with nothing in it but results.
+fn is_result_folder(place: &Path) -> bool {
+    let is_folder = place.symlink_metadata().is_ok_and(|found| found.is_dir());
+    is_folder
+        && fs::read_dir(place).is_ok_and(|mut entries| {
+            entries.all(|entry| {
+                entry.is_ok_and(|entry| FILES.iter().any(|name| entry.file_name() == *name))
+            })
+        })
 }
 
 /// A fresh folder beside `dir`, on the same file system, that vanishes unless kept.

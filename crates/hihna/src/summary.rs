@@ -119,7 +119,7 @@ pub struct PulleyReport {
     pub hub_force: [f64; 2],
     /// Mean velocity of the belt against the surface [m/s].
     pub slip_speed: f64,
-    /// Loss of surface speed against the first driver [-].
+    /// Loss of the belt's speed on it against the first driver [-], by the radii of the centre line.
     pub speed_loss: f64,
     /// Wrap angle of the path on the rigid pulleys [rad].
     pub wrap_angle: f64,
@@ -257,7 +257,7 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
         .iter()
         .position(crate::drive::Pulley::is_driver)
         .map_or(0.0, |p| {
-            mean(&format!("{}.speed", names[p])).abs() * drive.pulley[p].radius
+            mean(&format!("{}.speed", names[p])).abs() * outcome.layout.arcs[p].radius
         });
     let pulley = drive
         .pulley
@@ -267,7 +267,7 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
             let of = |what: &str| mean(&format!("{}.{what}", p.name));
             let speed = of("speed");
             let speed_loss = if reference > 0.0 {
-                1.0 - speed.abs() * p.radius / reference
+                1.0 - speed.abs() * arc.radius / reference
             } else {
                 0.0
             };

@@ -10,18 +10,15 @@ pub fn reference<E: Element>(element: &E) -> Vec<f64> {
 }
 
 /// A random state of moderate strain: the reference, turned and translated, with every position moved
-/// by up to a fifth of the length and every slope by up to three tenths.
+/// by up to a fifth of the shortest side and every slope by up to three tenths.
 pub fn deformed_state<E: Element>(element: &E, seed: u64) -> Vec<f64> {
     let length = length_scale(element);
     let motion = RigidMotion::random(E::DIMENSION, length, seed + 1000);
     let mut e = motion.apply::<E>(&reference(element));
+    let side = shortest_side(element);
     let mut random = Random::new(seed);
     for (i, value) in e.iter_mut().enumerate() {
-        let change = if is_position::<E>(i) {
-            0.2 * length
-        } else {
-            0.3
-        };
+        let change = if is_position::<E>(i) { 0.2 * side } else { 0.3 };
         *value += change * random.symmetric();
     }
     e
@@ -43,12 +40,30 @@ fn is_position<E: Element>(coordinate: usize) -> bool {
 /// Largest distance between the first node and another.
 pub(super) fn length_scale<E: Element>(element: &E) -> f64 {
     let e = reference(element);
-    e.chunks(E::NODE_DOF)
-        .map(|node| {
-            let square: f64 = (0..E::DIMENSION).map(|i| (node[i] - e[i]).powi(2)).sum();
-            square.sqrt()
-        })
+    (1..E::NODES)
+        .map(|node| distance::<E>(&e, 0, node))
         .fold(0.0, f64::max)
+}
+
+/// Smallest distance between two nodes; moves of a part of it strain no side extremely.
+fn shortest_side<E: Element>(element: &E) -> f64 {
+    let e = reference(element);
+    let mut shortest = f64::INFINITY;
+    for a in 0..E::NODES {
+        for b in 0..a {
+            shortest = shortest.min(distance::<E>(&e, a, b));
+        }
+    }
+    shortest
+}
+
+/// Distance between two nodes of the configuration `e`.
+fn distance<E: Element>(e: &[f64], a: usize, b: usize) -> f64 {
+    let position = |node: usize| &e[node * E::NODE_DOF..][..E::DIMENSION];
+    let square: f64 = (position(a).iter().zip(position(b)))
+        .map(|(a, b)| (a - b).powi(2))
+        .sum();
+    square.sqrt()
 }
 
 /// The unit of each coordinate: length for a position, one for a slope.

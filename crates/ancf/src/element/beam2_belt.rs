@@ -167,6 +167,8 @@ fn matrix_mut<S: Scalar>(matrix: &mut [S]) -> &mut [S; DOF * DOF] {
     matrix
 }
 
+crate::body_kernels!(BeltBeam2);
+
 impl Element for BeltBeam2 {
     const DIMENSION: usize = 2;
     const NODES: usize = 2;

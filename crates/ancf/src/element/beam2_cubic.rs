@@ -283,6 +283,8 @@ fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
     e
 }
 
+crate::body_kernels!(CubicBeam2);
+
 impl Element for CubicBeam2 {
     const DIMENSION: usize = 2;
     const NODES: usize = 2;

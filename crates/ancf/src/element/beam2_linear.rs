@@ -78,6 +78,8 @@ fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
     e
 }
 
+crate::body_kernels!(LinearBeam2);
+
 impl Element for LinearBeam2 {
     const DIMENSION: usize = 2;
     const NODES: usize = 2;

@@ -244,6 +244,8 @@ const fn coordinate(variable: usize) -> usize {
     }
 }
 
+crate::body_kernels!(BeltBeam3);
+
 impl Element for BeltBeam3 {
     const DIMENSION: usize = 3;
     const NODES: usize = 2;

@@ -122,6 +122,8 @@ fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
     e
 }
 
+crate::body_kernels!(LinearBeam3);
+
 impl Element for LinearBeam3 {
     const DIMENSION: usize = 3;
     const NODES: usize = 2;

@@ -28,7 +28,7 @@ use self::shape::{FUNCTIONS, Shape};
 use super::{Element, SurfaceElement};
 use crate::material::Isotropic;
 use crate::quadrature::Rule;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, unroll};
 use crate::strain::SurfaceGradient;
 
 const DOF: usize = 36;
@@ -218,13 +218,32 @@ impl<const V: usize> Point<V> {
                     }
                 }
             }
-            for k in 0..FUNCTIONS {
-                let entries = &mut sum[block][k];
-                for v in 0..V {
-                    let factor = self.shape[v][k];
-                    for m in 0..FUNCTIONS {
-                        entries[m] += half[v][m] * factor;
-                    }
+            let sum = &mut sum[block];
+            if row == column {
+                // The upper part alone, in steps of four rows: constant bounds keep whole registers.
+                unroll!(for step in 0..3 {
+                    self.add_rows::<S, 4>(&half, 4 * step, 4 * step, sum);
+                });
+            } else {
+                self.add_rows::<S, FUNCTIONS>(&half, 0, 0, sum);
+            }
+        }
+    }
+
+    /// Adds `ROWS` rows from `first`, from column `start` on, of shape functions times `half`.
+    #[inline(always)]
+    fn add_rows<S: Scalar, const ROWS: usize>(
+        &self,
+        half: &[[S; FUNCTIONS]; V],
+        first: usize,
+        start: usize,
+        sum: &mut [[S; FUNCTIONS]; FUNCTIONS],
+    ) {
+        for k in first..first + ROWS {
+            for v in 0..V {
+                let factor = self.shape[v][k];
+                for m in start..FUNCTIONS {
+                    sum[k][m] += half[v][m] * factor;
                 }
             }
         }
@@ -234,7 +253,8 @@ impl<const V: usize> Point<V> {
 /// Pairs of axes of a symmetric tangent.
 const AXES: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
 
-/// Blocks of the tangent: pair of axes, row function, column function.
+/// Blocks of the tangent: pair of axes, row function, column function. Of the symmetric blocks (equal
+/// axes) the part from the diagonal on is used.
 type Sum<S> = [[[S; FUNCTIONS]; FUNCTIONS]; 6];
 
 #[inline(always)]
@@ -250,6 +270,8 @@ fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
 fn dot<S: Scalar>(a: [S; 3], b: [S; 3]) -> S {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+crate::body_kernels!(ThinPlate);
 
 impl Element for ThinPlate {
     const DIMENSION: usize = 3;
@@ -299,7 +321,8 @@ impl Element for ThinPlate {
         }
         for (block, [i, j]) in sum.iter().zip(AXES) {
             for k in 0..FUNCTIONS {
-                for m in 0..FUNCTIONS {
+                let first = if i == j { k } else { 0 };
+                for m in first..FUNCTIONS {
                     stiffness[(3 * k + i) * DOF + 3 * m + j] = block[k][m];
                     stiffness[(3 * m + j) * DOF + 3 * k + i] = block[k][m];
                 }

@@ -13,7 +13,9 @@
 
 use thiserror::Error;
 
+use crate::constraint::ConstraintSet;
 use crate::linear::{BorderedMatrix, CyclicSolver, Singular, Solver};
+use crate::norm::VectorNorm;
 use crate::system::{Mechanics, State};
 
 /// Smallest damping factor of the line search.
@@ -195,7 +197,7 @@ struct Newton {
     trial_correction: Vec<f64>,
     matrix: BorderedMatrix,
     solver: CyclicSolver,
-    scales: Vec<f64>,
+    norm: VectorNorm,
     first_multiplier: usize,
 }
 
@@ -220,8 +222,8 @@ impl Newton {
             trial_correction: zero,
             matrix: BorderedMatrix::new(structure),
             solver: CyclicSolver::new(structure),
-            scales: system.scales().to_vec(),
-            first_multiplier: size - system.constraints().map_or(0, |set| set.multipliers()),
+            norm: VectorNorm::new(system),
+            first_multiplier: size - system.constraints().map_or(0, ConstraintSet::multipliers),
         };
         newton.prescribe(system);
         newton
@@ -249,7 +251,7 @@ impl Newton {
         for _ in 0..options.max_iterations {
             self.factor(system)?;
             self.solver.solve(&mut self.correction);
-            let size = self.size(&self.correction);
+            let size = self.norm.largest(&self.correction).0;
             history.push(size);
             if !size.is_finite() {
                 return Ok(false);
@@ -261,7 +263,7 @@ impl Newton {
                 self.step(system, damping);
                 self.residual(system, Which::Trial);
                 self.solver.solve(&mut self.trial_correction);
-                let next = self.size(&self.trial_correction);
+                let next = self.norm.largest(&self.trial_correction).0;
                 if next < (1.0 - 0.25 * damping) * size || next < options.tolerance {
                     break next;
                 }
@@ -345,19 +347,6 @@ impl Newton {
             self.matrix.set_unit_row(*index);
         }
         self.solver.factor(&self.matrix)
-    }
-
-    /// Largest scaled entry; NaN counts as infinite.
-    fn size(&self, correction: &[f64]) -> f64 {
-        let mut largest = 0.0_f64;
-        for (value, scale) in correction.iter().zip(&self.scales) {
-            let value = (value * scale).abs();
-            if value.is_nan() {
-                return f64::INFINITY;
-            }
-            largest = largest.max(value);
-        }
-        largest
     }
 }
 

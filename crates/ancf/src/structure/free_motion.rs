@@ -98,7 +98,7 @@ impl<E: LineElement> PlanarStructure<E> {
     fn by_motion(i: usize, drawn: &[f64], length: f64) -> [f64; 3] {
         let is_place = i % E::NODE_DOF < 2;
         let moves = if is_place { 1.0 } else { 0.0 };
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             [moves, 0.0, -drawn[i + 1] / length]
         } else {
             [0.0, moves, drawn[i - 1] / length]
@@ -127,7 +127,7 @@ impl<E: LineElement> PlanarStructure<E> {
 
 /// A basis of the null space by Gauss-Jordan elimination. Pivots are sought among translations first,
 /// so that what stays free is a rotation where there is a choice.
-fn null_space(rows: &mut Vec<Vec<f64>>, columns: usize) -> Vec<Vec<f64>> {
+fn null_space(rows: &mut [Vec<f64>], columns: usize) -> Vec<Vec<f64>> {
     let mut pivots: Vec<usize> = Vec::new();
     let translations = (0..columns).filter(|k| k % 3 < 2);
     let rotations = (0..columns).filter(|k| k % 3 == 2);

@@ -23,6 +23,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, MatRef, Par, Side};
 
 use super::{PlanarStructure, StructureError};
+use crate::constraint::ConstraintSet;
 use crate::element::LineElement;
 use crate::linear::BorderedMatrix;
 use crate::loads::Loads;
@@ -84,7 +85,7 @@ impl Reduced {
         system.set_load_factor(1.0);
         let structure = system.structure();
         let constraints = system.constraints();
-        let size = structure.size() - constraints.map_or(0, |set| set.multipliers());
+        let size = structure.size() - constraints.map_or(0, ConstraintSet::multipliers);
         let basis = basis(system, &equilibrium.q, size);
         let rest = vec![0.0; structure.size()];
         let state = State {
@@ -126,7 +127,7 @@ impl Reduced {
 fn basis<E: LineElement>(system: &System<E, Loads>, q: &[f64], size: usize) -> Mat<f64> {
     let dependents = system
         .constraints()
-        .map_or_else(Vec::new, |set| set.dependents());
+        .map_or_else(Vec::new, ConstraintSet::dependents);
     let independent: Vec<usize> = (0..size).filter(|i| !dependents.contains(i)).collect();
     let velocity = |unit: Option<usize>| {
         let mut q = q.to_vec();

@@ -1,6 +1,6 @@
 //! Rules that involve several fields of a drive. Ranges of single fields are attributes of `Drive`.
 
-use crate::assemble::{AssemblyError, Mounting};
+use crate::assemble::{AssemblyError, Mounting, closable};
 use crate::drive::{Belt, BeltElement, Drive, Pulley, Run, Step};
 use crate::input::check::own_name;
 use crate::input::problem::{FieldPath, Problem, quoted};
@@ -49,7 +49,8 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
     };
     let fit = Layout::of(drive)
         .map_err(AssemblyError::Layout)
-        .and_then(|layout| Mounting::new(&drive.belt, &layout));
+        .and_then(|layout| Mounting::new(&drive.belt, &layout))
+        .and_then(|mounting| closable(drive, &mounting));
     let error = fit.err()?;
     let pulleys = FieldPath::default().field("pulley");
     let path = match &error {
@@ -67,15 +68,23 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
         },
         AssemblyError::Layout(_) => pulleys,
         AssemblyError::Joint(_) => FieldPath::default().field("belt").field("joint"),
+        AssemblyError::TooFewElements { .. } => {
+            FieldPath::default().field("belt").field("elements")
+        }
     };
     let problem = Problem::new(path, error.to_string());
     Some(match error {
         AssemblyError::TooLong { path, .. } => {
             problem.expected(format!("an unstretched length below {path:.6} m"))
         }
-        AssemblyError::TooShort { shortest, path, .. } => problem.expected(format!(
-            "an unstretched length between {shortest:.6} m and {path:.6} m"
-        )),
+        AssemblyError::TooShort { shortest, path, .. } => problem.expected(match tightness {
+            "length" => format!("an unstretched length between {shortest:.6} m and {path:.6} m"),
+            "strain" => format!("a strain below {}", path / shortest - 1.0),
+            _ => "a tension that stretches the belt less, or a stiffer belt".to_owned(),
+        }),
+        AssemblyError::TooFewElements { elements, .. } => {
+            problem.expected(format!("at least {elements} elements"))
+        }
         AssemblyError::Joint(_) => problem,
         AssemblyError::Layout(_) => {
             problem.help("`hihna check` prints the path of the belt once it closes")
@@ -156,7 +165,7 @@ fn number_of_pulleys(pulleys: &[Pulley], problems: &mut Vec<Problem>) {
                 problems.push(
                     Problem::new(path, "no pulley drives the belt")
                         .expected("a pulley with a `speed` or an `angle`")
-                        .help("add `speed = \"720 rpm\"`, or a ramp, to the driver"),
+                        .help("add `speed = { kind = \"ramp\", from = 0.0, to = \"720 rpm\", start = 0.0, end = 0.5 }` to the driver"),
                 );
             }
         }
@@ -205,6 +214,16 @@ fn span_names(pulleys: &[Pulley], problems: &mut Vec<Problem>) {
         .collect();
     let hyphen = pulleys.iter().any(|pulley| pulley.name.contains('-'));
     for (i, span) in spans.iter().enumerate().filter(|_| hyphen) {
+        if let Some(named) = pulleys.iter().position(|pulley| pulley.name == *span) {
+            let path = FieldPath::default()
+                .field("pulley")
+                .item(named, None)
+                .field("name");
+            problems.push(
+                Problem::new(path, format!("{span:?} is also the name of a span of the belt"))
+                    .help("a span is named after its two pulleys, joined by a hyphen; use `_` within names"),
+            );
+        }
         if spans[..i].contains(span) {
             let path = FieldPath::default()
                 .field("pulley")

@@ -79,7 +79,13 @@ impl Shape {
             return Self::read_variants(alternatives);
         }
         if let Some(alternatives) = schema["anyOf"].as_array() {
-            return Self::Either(alternatives.iter().map(Self::read).collect());
+            // TOML has no null: an optional field is there or not.
+            let present = alternatives.iter().filter(|one| one["type"] != "null");
+            let mut shapes: Vec<_> = present.map(Self::read).collect();
+            return match shapes.pop() {
+                Some(only) if shapes.is_empty() => only,
+                last => Self::Either(shapes.into_iter().chain(last).collect()),
+            };
         }
         match schema["type"].as_str() {
             Some("integer") => Self::Count(Bounds::read(schema)),

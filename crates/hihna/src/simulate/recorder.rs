@@ -13,6 +13,10 @@ use crate::history::History;
 use crate::layout::Layout;
 use crate::observe::{BeltSystem, Observer, Powers, ProfileRow, PulleyState, SpanState, Stored};
 
+/// A pulley that hardly takes a torque is judged by this part of the tension at rest times its radius: what
+/// accuracy means for the drive as a whole.
+const LEAST_TORQUE: f64 = 0.01;
+
 /// Collects history, profile and balances while the run goes on.
 pub(super) struct Recorder {
     observer: Observer,
@@ -33,8 +37,9 @@ pub(super) struct Recorder {
     /// Powers at the last accepted state and work since the start.
     powers: Powers,
     work: Powers,
-    turnover: f64,
     largest_residual: f64,
+    /// Mean tension at rest [N].
+    rest_tension: f64,
     /// For each pulley: torque last, its integral, the integral of its magnitude, first speed, now.
     momenta: Vec<Momentum>,
 }
@@ -75,8 +80,8 @@ impl Recorder {
             initial: Stored::default(),
             powers: Powers::default(),
             work: Powers::default(),
-            turnover: 0.0,
             largest_residual: 0.0,
+            rest_tension: 0.0,
             momenta: vec![Momentum::default(); names.len()],
         }
     }
@@ -100,8 +105,9 @@ impl Recorder {
             momentum.first_speed = speed;
             momentum.speed = speed;
         }
+        self.rest_tension = self.observer.mean_tension();
         StartState {
-            tension: self.observer.mean_tension(),
+            tension: self.rest_tension,
             penetration: self.observer.penetration(),
             iterations: settled.iterations,
         }
@@ -133,9 +139,6 @@ impl Recorder {
                 .plus(step * 0.5 * s * s, &last)
         };
         self.work = work_until(1.0);
-        self.turnover += 0.5
-            * step
-            * (first.input.abs() + first.load.abs() + last.input.abs() + last.load.abs());
         self.powers = last;
 
         let stored = self.observer.stored(system, window.to);
@@ -194,20 +197,21 @@ impl Recorder {
 
     pub fn audit(&self, drive: &Drive) -> Audit {
         // A drive at rest turns nothing over: compare with what the belt has stored.
-        let scale = self.turnover.max(1.0e-6 * self.initial.total());
+        let scale = self.work.turnover.max(1.0e-6 * self.initial.total());
         let torque_residual = self
             .momenta
             .iter()
             .zip(&drive.pulley)
-            .filter(|(momentum, pulley)| !pulley.is_driver() && momentum.moved > 0.0)
+            .filter(|(_, pulley)| !pulley.is_driver())
             .map(|(momentum, pulley)| {
                 let gained = pulley.inertia * (momentum.speed - momentum.first_speed);
-                (gained - momentum.impulse).abs() / momentum.moved
+                let least = LEAST_TORQUE * self.rest_tension * pulley.radius * self.state.time;
+                (gained - momentum.impulse).abs() / momentum.moved.max(least)
             })
             .fold(0.0, f64::max);
         Audit {
             energy_input: self.work.input,
-            turnover: self.turnover,
+            turnover: self.work.turnover,
             energy_residual: self.largest_residual / scale,
             torque_residual,
             tolerance: 0.1 * drive.run.accuracy,

@@ -34,6 +34,9 @@ pub(super) struct Bending {
 /// `(r_x, r_y, r_xx, r_yy, r_xy)`, or derivatives by them.
 pub(super) type Vectors<S> = [[S; 3]; 5];
 
+/// Second derivatives by the vectors: `[row vector][column vector][row][column]`.
+pub(super) type Hessian<S> = [[[[S; 3]; 3]; 5]; 5];
+
 /// First of the second derivatives among the vectors.
 const SECOND: usize = 2;
 
@@ -158,32 +161,31 @@ impl Bending {
         by
     }
 
-    /// Second derivatives of W, times `weight`: `[row vector][column vector][row][column]`.
+    /// Second derivatives of W, times `weight`.
     #[inline(always)]
-    pub fn hessian<S: Scalar>(&self, vectors: &Vectors<S>, weight: f64) -> [[[[S; 3]; 3]; 5]; 5] {
+    pub fn hessian<S: Scalar>(&self, vectors: &Vectors<S>, weight: f64) -> Hessian<S> {
         let at = Surface::new(vectors);
-        let Surface {
-            normal: n,
-            dual,
-            per_square,
-            p,
-            ..
-        } = &at;
-        let curvature = at.curvature();
-        let moments = self.moments(curvature, weight);
+        let moments = self.moments(at.curvature(), weight);
+        let turns = self.turns(vectors, &at, weight);
         let mut h = [[[[S::zero(); 3]; 3]; 5]; 5];
+        self.add_second(vectors, &at, moments, &turns, weight, &mut h);
+        add_slopes(vectors, &at, moments, &turns, &mut h);
+        h
+    }
 
-        // turn[side][i] = p_i R_i.a* or b*; gradient[side][i] = dk_i/da or db; stressed = D times it.
+    #[inline(always)]
+    fn turns<S: Scalar>(&self, vectors: &Vectors<S>, at: &Surface<S>, weight: f64) -> Turns<S> {
+        let curvature = at.curvature();
         let mut turn = [[S::zero(); 3]; 2];
         let mut gradient = [[[S::zero(); 3]; 3]; 2];
         let mut stressed = gradient;
         for side in 0..2 {
             for i in 0..3 {
-                turn[side][i] = p[i] * dot(vectors[SECOND + i], dual[side]);
-                let along = curvature[i] * per_square[side] * POWERS[side][i];
+                turn[side][i] = at.p[i] * dot(vectors[SECOND + i], at.dual[side]);
+                let along = curvature[i] * at.per_square[side] * POWERS[side][i];
                 for axis in 0..3 {
                     gradient[side][i][axis] =
-                        -(n[axis] * turn[side][i] + vectors[side][axis] * along);
+                        -(at.normal[axis] * turn[side][i] + vectors[side][axis] * along);
                 }
             }
             for axis in 0..3 {
@@ -193,8 +195,25 @@ impl Bending {
                 }
             }
         }
+        Turns {
+            turn,
+            gradient,
+            stressed,
+        }
+    }
 
-        // Second derivatives with each other and with a and b.
+    /// Blocks of the second derivatives of r with each other and with a and b.
+    #[inline(always)]
+    fn add_second<S: Scalar>(
+        &self,
+        vectors: &Vectors<S>,
+        at: &Surface<S>,
+        moments: [S; 3],
+        turns: &Turns<S>,
+        weight: f64,
+        h: &mut Hessian<S>,
+    ) {
+        let (n, p) = (&at.normal, &at.p);
         for i in 0..3 {
             let unit = [0, 1, 2].map(|j: usize| S::constant(f64::from(u8::from(i == j))));
             let row = self.moments(unit, weight);
@@ -209,74 +228,114 @@ impl Bending {
                 }
             }
             for side in 0..2 {
-                let shrinking = moment * per_square[side] * POWERS[side][i];
+                let shrinking = moment * at.per_square[side] * POWERS[side][i];
                 for k in 0..3 {
-                    let by_normal = dual[side][k] * moment;
+                    let by_normal = at.dual[side][k] * moment;
                     for m in 0..3 {
-                        let value = n[k]
-                            * (stressed[side][i][m] * p[i] - vectors[side][m] * shrinking)
-                            - by_normal * n[m];
+                        let stressed = turns.stressed[side][i][m] * p[i];
+                        let value =
+                            n[k] * (stressed - vectors[side][m] * shrinking) - by_normal * n[m];
                         h[SECOND + i][side][k][m] = value;
                         h[side][SECOND + i][m][k] = value;
                     }
                 }
             }
         }
+    }
+}
 
-        // a and b with each other.
-        let mut of_turn = [S::zero(); 2];
-        // weighted[side][other] = sum m_i M_i turn[other][i], m of side.
-        let mut weighted = [[S::zero(); 2]; 2];
-        let mut power = [S::zero(); 2];
-        let mut square = [S::zero(); 2];
-        let mut total = S::zero();
+/// What turns of the normal and changes of a and b do to the curvatures: for a, then for b.
+struct Turns<S> {
+    /// p_i R_i.a*.
+    turn: [[S; 3]; 2],
+    /// dk_i/da.
+    gradient: [[[S; 3]; 3]; 2],
+    /// D times it.
+    stressed: [[[S; 3]; 3]; 2],
+}
+
+/// Sums over the curvatures of the energies `M_i k_i` and of `M_i turn_i`, for a and b.
+struct Sums<S> {
+    energy: S,
+    turn: [S; 2],
+    /// Weighted with the powers m or n, and with m (m + 2).
+    power: [S; 2],
+    square: [S; 2],
+    /// `[side][other]`: M_i turn[other]_i with the powers of side.
+    weighted: [[S; 2]; 2],
+}
+
+impl<S: Scalar> Sums<S> {
+    #[inline(always)]
+    fn new(moments: [S; 3], curvature: [S; 3], turn: &[[S; 3]; 2]) -> Self {
+        let mut sums = Self {
+            energy: S::zero(),
+            turn: [S::zero(); 2],
+            power: [S::zero(); 2],
+            square: [S::zero(); 2],
+            weighted: [[S::zero(); 2]; 2],
+        };
         for i in 0..3 {
             let energy = moments[i] * curvature[i];
-            total += energy;
+            sums.energy += energy;
             for side in 0..2 {
-                let exponent = POWERS[side][i];
-                of_turn[side] += moments[i] * turn[side][i];
-                power[side] += energy * exponent;
-                square[side] += energy * (exponent * (exponent + 2.0));
+                let power = POWERS[side][i];
+                sums.turn[side] += moments[i] * turn[side][i];
+                sums.power[side] += energy * power;
+                sums.square[side] += energy * (power * (power + 2.0));
                 for other in 0..2 {
-                    weighted[side][other] += moments[i] * turn[other][i] * exponent;
+                    sums.weighted[side][other] += moments[i] * turn[other][i] * power;
                 }
             }
         }
-        let mixed = moments[2] * curvature[2] * per_square[0] * per_square[1];
-        for side in 0..2 {
-            for other in side..2 {
-                let metric = dot(dual[side], dual[other]) * total;
-                let (own, next) = (&vectors[side], &vectors[other]);
-                let (by_own, by_next) = (
-                    weighted[side][other] * per_square[side],
-                    weighted[other][side] * per_square[other],
-                );
-                let along = if side == other {
-                    square[side] * per_square[side] * per_square[side]
-                } else {
-                    mixed
-                };
-                for k in 0..3 {
-                    for m in 0..3 {
-                        let mut value = (dual[other][k] * n[m]) * of_turn[side]
-                            + (n[k] * dual[side][m]) * of_turn[other]
-                            - n[k] * n[m] * metric
-                            + own[k] * next[m] * along
-                            + own[k] * n[m] * by_own
-                            + n[k] * next[m] * by_next;
-                        for i in 0..3 {
-                            value += gradient[side][i][k] * stressed[other][i][m];
-                        }
-                        if side == other && k == m {
-                            value -= power[side] * per_square[side];
-                        }
-                        h[side][other][k][m] = value;
-                        h[other][side][m][k] = value;
+        sums
+    }
+}
+
+/// Adds the blocks of a and b with each other.
+#[inline(always)]
+fn add_slopes<S: Scalar>(
+    vectors: &Vectors<S>,
+    at: &Surface<S>,
+    moments: [S; 3],
+    turns: &Turns<S>,
+    h: &mut Hessian<S>,
+) {
+    let (n, dual, per_square) = (&at.normal, &at.dual, &at.per_square);
+    let curvature = at.curvature();
+    let sums = Sums::new(moments, curvature, &turns.turn);
+    let mixed = moments[2] * curvature[2] * per_square[0] * per_square[1];
+    for side in 0..2 {
+        for other in side..2 {
+            let metric = dot(dual[side], dual[other]) * sums.energy;
+            let (own, next) = (&vectors[side], &vectors[other]);
+            let (by_own, by_next) = (
+                sums.weighted[side][other] * per_square[side],
+                sums.weighted[other][side] * per_square[other],
+            );
+            let along = if side == other {
+                sums.square[side] * per_square[side] * per_square[side]
+            } else {
+                mixed
+            };
+            for k in 0..3 {
+                for m in 0..3 {
+                    let mut value = (dual[other][k] * n[m]) * sums.turn[side]
+                        + (n[k] * dual[side][m]) * sums.turn[other]
+                        - n[k] * n[m] * metric
+                        + own[k] * next[m] * along
+                        + own[k] * n[m] * by_own
+                        + n[k] * next[m] * by_next;
+                    for i in 0..3 {
+                        value += turns.gradient[side][i][k] * turns.stressed[other][i][m];
                     }
+                    if side == other && k == m {
+                        value -= sums.power[side] * per_square[side];
+                    }
+                    h[side][other][k][m] = value;
+                    h[other][side][m][k] = value;
                 }
             }
         }
-        h
     }
 }

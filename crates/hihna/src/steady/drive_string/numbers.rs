@@ -2,8 +2,10 @@
 //!
 //! ```text
 //! k = axial_factor E w h,   m = rho w h,   T_init = tension or k strain,
+//! R = radius + p h,   mu = coefficient, or coefficient / sin(groove_angle/2) in a groove,
 //! ```
-//! wrap angles and spans by the common tangents of the layout. With dual numbers all of it carries
+//! with p = 1/2 where the belt's face touches the pulleys, else 0, and the back's own coefficient where it
+//! has one (S13); wrap angles and spans by the common tangents of the layout. With dual numbers all of it carries
 //! its derivatives by the fields of the drive file.
 
 use crate::drive::{Drive, Friction, Surface, Wrap};

@@ -73,7 +73,16 @@ fn derivatives_match_differences_of_whole_drives() {
         "a -0.2 0.05 0.06 inside speed = 90.0",
         "b 0.25 -0.03 0.09 outside torque = 5.0",
     ];
+    // Grooves, another friction on the belt's back, the centre line half a thickness out.
+    let grooved = ten("tension = 600.0", 80.0)
+        .replace(
+            "[contact]",
+            "[contact]\nsurface = \"face\"\nback_friction = { law = \"stribeck\", static_coefficient = 0.6, \
+             sliding_coefficient = 0.5, stribeck_velocity = 0.1, velocity = 0.01 }",
+        )
+        .replace("wrap = \"inside\"", "wrap = \"inside\"\ngroove_angle = 1.2");
     let cases = [
+        (grooved, Closure::UnstretchedLength),
         (ten("tension = 600.0", 80.0), Closure::UnstretchedLength),
         (ten("strain = 0.02", -80.0), Closure::UnstretchedLength),
         (ten("length = 2.72", 80.0), Closure::TensionSum),
