@@ -201,7 +201,7 @@ impl TimeRun {
                     }
                 }
                 let part = f64::from(points).recip();
-                (points > 0).then(|| Section {
+                (points > 0).then_some(Section {
                     angle: sum.angle * part,
                     normal_force: sum.normal_force * part,
                     friction_force: sum.friction_force * part,
