@@ -128,12 +128,14 @@ fn an_existing_folder_is_kept_unless_forced() {
     assert_eq!(status(&output), 2);
     assert!(text(&output.stderr).contains("--force"), "{output:?}");
     assert_eq!(names(&result), ["mine"]);
-    let output = hihna(
-        &folder,
-        &[&["run", "--force", "--json"], SHORT.as_slice()].concat(),
-    );
+    let forced = [&["run", "--force", "--json"], SHORT.as_slice()].concat();
+    let output = hihna(&folder, &forced);
+    assert_eq!(status(&output), 2, "what is not a result is kept");
+    assert_eq!(names(&result), ["mine"]);
+    fs::rename(result.join("mine"), result.join("summary.json")).unwrap();
+    let output = hihna(&folder, &forced);
     assert_status_follows_audit(&output, &answer(&output));
-    assert!(names(&result).contains(&"summary.json".to_owned()));
+    assert!(names(&result).contains(&"history.csv".to_owned()));
     assert_eq!(
         names(folder.path()),
         ["two_pulley-result"],

@@ -378,7 +378,11 @@ fn points(
     if let Some(i) = unsorted {
         let (before, after) = (x[i], x[i + 1]);
         let help = if after >= before {
-            format!("a change takes its {x_name}: give the second {y_name} a later {x_name}")
+            if x_name == "time" {
+                "a change takes time: give the second value a later time".to_owned()
+            } else {
+                format!("keep one {y_name} for each {x_name}")
+            }
         } else {
             format!("sort the table by {x_name}, {y_name}s with it")
         };

@@ -254,6 +254,10 @@ fn drive() -> impl Strategy<Value = Drive> {
     )
         .prop_map(|(title, mut belt, contact, pulley, gravity, run, strain)| {
             tighten(&mut belt, &pulley, strain);
+            // An element turns by less than half a turn around the smallest pulley.
+            let smallest = pulley.iter().fold(f64::INFINITY, |r, p| r.min(p.radius));
+            let path = Layout::new(&pulley).map_or(0.0, |layout| layout.length);
+            belt.elements += (path / smallest).ceil() as usize;
             Drive {
                 title,
                 gravity: [0.0, gravity],
