@@ -261,7 +261,13 @@ fn drive() -> impl Strategy<Value = Drive> {
             // An element turns by less than half a turn around the smallest pulley.
             let smallest = pulley.iter().fold(f64::INFINITY, |r, p| r.min(p.radius));
             let path = Layout::new(&pulley).map_or(0.0, |layout| layout.length);
-            belt.elements += (path / smallest).ceil() as usize;
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a positive count of some thousands"
+            )]
+            let needed = (path / smallest).ceil() as usize;
+            belt.elements += needed;
             Drive {
                 title,
                 gravity: [0.0, gravity],
