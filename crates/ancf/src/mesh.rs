@@ -8,6 +8,8 @@ use crate::element::Element;
 use crate::linear::BorderedMatrix;
 use crate::scalar::EightLanes;
 
+/// Most coordinates of an element: of a thin plate.
+const MOST_DOF: usize = 36;
 /// Elements computed side by side.
 const LANES: usize = 8;
 
@@ -58,7 +60,7 @@ impl<E: Element> Mesh<E> {
     fn new(elements: Vec<E>, across: usize, closed: bool) -> Self {
         const {
             assert!(
-                E::DOF <= 36,
+                E::DOF <= MOST_DOF,
                 "let the lane kernels below choose a larger size"
             );
             assert!(E::NODE_PLACES.len() == E::NODES, "every node has its place");
@@ -179,15 +181,15 @@ impl<E: Element> Mesh<E> {
 
     /// Power [W] that internal damping takes in the state `(q, v)`.
     pub fn damping_power(&self, q: &[f64], v: &[f64]) -> f64 {
-        let (mut e, mut rate, mut force) =
-            (vec![0.0; E::DOF], vec![0.0; E::DOF], vec![0.0; E::DOF]);
+        let [mut e, mut rate, mut force] = [[0.0; MOST_DOF]; 3];
+        let (e, rate, force) = (&mut e[..E::DOF], &mut rate[..E::DOF], &mut force[..E::DOF]);
         let mut power = 0.0;
         for (i, element) in self.elements.iter().enumerate() {
-            self.gather(i, q, &mut e);
-            self.gather(i, v, &mut rate);
+            self.gather(i, q, e);
+            self.gather(i, v, rate);
             force.fill(0.0);
-            element.add_damping_force(&e[..], &rate[..], &mut force[..]);
-            power -= rate.iter().zip(&force).map(|(a, b)| a * b).sum::<f64>();
+            element.add_damping_force(e, rate, force);
+            power -= rate.iter().zip(&*force).map(|(a, b)| a * b).sum::<f64>();
         }
         power
     }

@@ -78,6 +78,9 @@ pub enum StaticsError {
         /// The coordinate whose pivot vanished.
         coordinate: usize,
     },
+    /// The system has constraints, which this iteration does not know.
+    #[error("the system has constraints: look for its equilibrium in load steps")]
+    Constrained,
     /// The watcher asked to stop.
     #[error("stopped in iteration {iteration}")]
     Stopped {
@@ -86,7 +89,8 @@ pub enum StaticsError {
     },
 }
 
-/// Moves `q` to an equilibrium near it, at zero velocity and time `time`.
+/// Moves `q` to an equilibrium near it, at zero velocity and time `time`. For systems with constraints
+/// see [`equilibrium`].
 pub fn settle(
     system: &mut dyn Mechanics,
     time: f64,
@@ -107,6 +111,9 @@ pub fn settle_watched(
     options: Settle,
     watch: &mut dyn FnMut(usize, &[f64]) -> ControlFlow<()>,
 ) -> Result<Settled, StaticsError> {
+    if system.constraints().is_some() {
+        return Err(StaticsError::Constrained);
+    }
     let structure = system.structure();
     let size = structure.size();
     let norm = VectorNorm::new(system);

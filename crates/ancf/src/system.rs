@@ -203,6 +203,13 @@ impl<E: Element, L: ForceLaw> System<E, L> {
         }
     }
 
+    /// Lets the coordinate `index`, of the body too, follow `motion`.
+    #[must_use]
+    pub fn following(mut self, index: usize, motion: Box<dyn Motion>) -> Self {
+        self.prescribed.push((index, motion));
+        self
+    }
+
     /// The flexible body.
     pub fn mesh(&self) -> &Mesh<E> {
         &self.mesh

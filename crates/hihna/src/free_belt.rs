@@ -9,10 +9,9 @@ use std::ops::ControlFlow;
 
 use ancf::constraint::Constant;
 use ancf::element::{BeltBeam2, Element, LineElement};
-use ancf::linear::{BorderedMatrix, Structure};
 use ancf::mesh::Mesh;
 use ancf::statics::{Settle, StaticsError, settle_watched};
-use ancf::system::{Mechanics, Motion, State, System};
+use ancf::system::System;
 use thiserror::Error;
 
 use crate::assemble::{Assembly, AssemblyError};
@@ -48,16 +47,13 @@ pub fn spring_free(drive: &Drive) -> Result<FreeBelt, FreeBeltError> {
     let mut q = assembly.motion.q;
     q.truncate(mesh.dof());
     let opposite = drive.belt.elements / 2 * BeltBeam2::NODE_DOF;
-    let held = [0, 1, opposite + 1]
-        .map(|i| (i, Box::new(Constant(q[i])) as Box<dyn Motion>))
-        .into();
     let radius = assembly.mounting.length / std::f64::consts::TAU;
     let element = assembly.mounting.length / drive.belt.elements as f64;
     let scales = mesh.scales(element, drive.belt.thickness);
-    let mut belt = HeldBelt {
-        system: System::new(mesh, scales, Vec::new(), ()),
-        held,
-    };
+    let mut belt = System::new(mesh, scales, Vec::new(), ());
+    for index in [0, 1, opposite + 1] {
+        belt = belt.following(index, Box::new(Constant(q[index])));
+    }
     let mut shapes = Vec::new();
     // The shift starts at the square of an element's own axial frequency, sqrt(E/rho)/l.
     let settle = Settle {
@@ -67,7 +63,7 @@ pub fn spring_free(drive: &Drive) -> Result<FreeBelt, FreeBeltError> {
         tolerance: 1.0e-11 * radius,
         max_iterations: 500,
     };
-    let mesh = belt.system.mesh().clone();
+    let mesh = belt.mesh().clone();
     settle_watched(&mut belt, 0.0, &mut q, settle, &mut |_, q| {
         shapes.push(shape(&mesh, q));
         ControlFlow::Continue(())
@@ -97,47 +93,4 @@ fn shape(mesh: &Mesh<BeltBeam2>, q: &[f64]) -> Vec<[f64; 2]> {
         }
     }
     points
-}
-
-/// A belt some of whose coordinates are held.
-struct HeldBelt {
-    system: System<BeltBeam2, ()>,
-    held: Vec<(usize, Box<dyn Motion>)>,
-}
-
-impl Mechanics for HeldBelt {
-    fn structure(&self) -> Structure {
-        self.system.structure()
-    }
-
-    fn mass(&self) -> &BorderedMatrix {
-        self.system.mass()
-    }
-
-    fn force(&mut self, state: State<'_>, force: &mut [f64]) {
-        self.system.force(state, force);
-    }
-
-    fn add_tangent(
-        &mut self,
-        state: State<'_>,
-        position_factor: f64,
-        velocity_factor: f64,
-        matrix: &mut BorderedMatrix,
-    ) {
-        let system = &mut self.system;
-        system.add_tangent(state, position_factor, velocity_factor, matrix);
-    }
-
-    fn prescribed(&self) -> &[(usize, Box<dyn Motion>)] {
-        &self.held
-    }
-
-    fn scales(&self) -> &[f64] {
-        self.system.scales()
-    }
-
-    fn dimension(&self) -> usize {
-        self.system.dimension()
-    }
 }

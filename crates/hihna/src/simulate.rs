@@ -147,13 +147,16 @@ impl RunError {
         belt: (usize, usize),
         cause: StaticsError,
     ) -> Self {
-        match cause {
+        let coordinate = match cause {
+            StaticsError::Stopped { .. } => return Self::Stopped { time: 0.0 },
             StaticsError::NotConverged { coordinate, .. }
-            | StaticsError::Singular { coordinate } => Self::Start {
-                place: place(drive, layout, q, coordinate, belt),
-                cause,
-            },
-            StaticsError::Stopped { .. } => Self::Stopped { time: 0.0 },
+            | StaticsError::Singular { coordinate } => coordinate,
+            // Not the belt's case: its joint is opened after it has settled.
+            StaticsError::Constrained => 0,
+        };
+        Self::Start {
+            place: place(drive, layout, q, coordinate, belt),
+            cause,
         }
     }
 }

@@ -37,6 +37,15 @@ const DRIVEN: Pulley = Pulley {
     speed: None,
 };
 
+/// A back-side idler below the belt.
+const IDLER: Pulley = Pulley {
+    name: "idler",
+    center: [0.0, -0.11],
+    radius: 0.06,
+    outside: true,
+    speed: None,
+};
+
 /// A drive of these pulleys; `belt` says how tight the belt is, `more` are overrides.
 fn run(pulleys: &[Pulley], belt: &str, more: &[&str]) -> Outcome {
     let mut text = format!(
@@ -194,15 +203,8 @@ fn without_friction_the_driven_pulley_does_not_turn() {
 /// leaves a few percent.
 #[test]
 fn three_pulleys_with_an_outside_idler() {
-    let idler = Pulley {
-        name: "idler",
-        center: [0.0, -0.11],
-        radius: 0.06,
-        outside: true,
-        speed: None,
-    };
     let outcome = run(
-        &[DRIVER, idler, DRIVEN],
+        &[DRIVER, IDLER, DRIVEN],
         "strain = 0.005",
         &["belt.elements=60", "pulley.idler.inertia=0.0005"],
     );
@@ -212,7 +214,7 @@ fn three_pulleys_with_an_outside_idler() {
         last(&outcome, "idler.speed"),
     );
     assert!(driven > 9.0, "{driven} rad/s");
-    let ratio = -turning * idler.radius / (driven * RADIUS);
+    let ratio = -turning * IDLER.radius / (driven * RADIUS);
     assert!((ratio - 1.0).abs() < 0.1, "ratio of surface speeds {ratio}");
 }
 
@@ -301,13 +303,6 @@ fn audits_close_in_slow_drives_and_short_runs() {
         speed: Some(4.0),
         ..DRIVER
     };
-    let idler = Pulley {
-        name: "idler",
-        center: [0.0, -0.11],
-        radius: 0.06,
-        outside: true,
-        speed: None,
-    };
     let crossed = Pulley {
         outside: true,
         ..DRIVEN
@@ -331,7 +326,7 @@ fn audits_close_in_slow_drives_and_short_runs() {
             "belt.elements=60",
             "pulley.idler.inertia=0.0005",
         ];
-        assert_audit(&run(&[slow, idler, DRIVEN], "strain = 0.005", &loose));
+        assert_audit(&run(&[slow, IDLER, DRIVEN], "strain = 0.005", &loose));
     }
     assert_audit(&run(&[DRIVER, DRIVEN], LENGTH, &["run.end_time=0.15"]));
 }
@@ -340,11 +335,9 @@ fn audits_close_in_slow_drives_and_short_runs() {
 #[test]
 fn a_small_idler_deep_in_the_path_settles() {
     let idler = Pulley {
-        name: "idler",
         center: [0.0, -0.09],
         radius: 0.04,
-        outside: true,
-        speed: None,
+        ..IDLER
     };
     let changes = ["belt.elements=40", "pulley.idler.inertia=0.0005"];
     assert_audit(&run(&[DRIVER, idler, DRIVEN], "strain = 0.005", &changes));

@@ -3,7 +3,7 @@
 //! They are the largest functions of the library by far. [`BodyKernels`] makes the crate that defines an
 //! element compile them, once, instead of every crate that uses a mesh of it.
 
-use super::{LANES, Mesh};
+use super::{LANES, MOST_DOF, Mesh};
 use crate::element::Element;
 use crate::linear::BorderedMatrix;
 use crate::scalar::{EightLanes, LaneKernel, dispatch};
@@ -101,7 +101,7 @@ macro_rules! with_element_size {
         } else if const { <$element>::DOF <= 24 } {
             $self.sized::<$scalar, 24>()
         } else {
-            $self.sized::<$scalar, 36>()
+            $self.sized::<$scalar, MOST_DOF>()
         }
     };
 }
