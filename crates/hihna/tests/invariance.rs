@@ -425,9 +425,6 @@ fn a_pulley_dragged_backwards_is_told() {
     let (_, driven) = &summary.steady.pulley.0[1];
     assert!(driven.speed < 0.0 && driven.speed_loss > 1.0, "{driven:?}");
     let warnings = summary.warnings.join("\n");
-    assert!(
-        warnings.contains("slips on all of pulley `driven`"),
-        "{warnings}"
-    );
+    assert!(warnings.contains("slips on pulley `driven`"), "{warnings}");
     assert_audit(&outcome);
 }

@@ -3,14 +3,19 @@
 use super::Report;
 use crate::drive::Drive;
 
-/// Part of the contact that slips where a pulley is said to slip as a whole.
-const WHOLE: f64 = 0.95;
-/// Part of the wrap that touches where a belt is said to have lifted off.
+/// Part of the wrap that touches where a belt is said to have lifted off, and of the contact that slips where
+/// a belt is said to slip.
 const HALF: f64 = 0.5;
 
 /// Pulleys that the belt has left or slips on as a whole.
 pub(super) fn of_running(drive: &Drive, steady: &Report) -> Vec<String> {
     let mut warnings = Vec::new();
+    // What a belt loses by its stretch alone is less than its greatest strain.
+    let stretch = steady
+        .span
+        .0
+        .iter()
+        .fold(0.0, |most, (_, span)| f64::max(most, span.strain));
     for (pulley, (name, report)) in drive.pulley.iter().zip(&steady.pulley.0) {
         let (contact, wrap) = (report.contact_angle, report.wrap_angle);
         if contact < HALF * wrap {
@@ -20,11 +25,11 @@ pub(super) fn of_running(drive: &Drive, steady: &Report) -> Vec<String> {
                 wrap.to_degrees()
             ));
         }
-        let grips = drive.friction_on(pulley).coefficient() > 0.0;
-        if grips && report.slip_angle > WHOLE * contact {
+        let loss = report.speed_loss;
+        if report.slip_angle > HALF * contact && loss.abs() > stretch {
             warnings.push(format!(
-                "the belt slips on all of pulley `{name}`, to which friction gives no more than {:.4} N m",
-                report.torque.abs()
+                "the belt slips on pulley `{name}`: {:.1} % of its speed, more than it stretches; the torque is more than friction carries",
+                100.0 * loss
             ));
         }
     }
