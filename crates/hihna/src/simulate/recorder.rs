@@ -3,15 +3,16 @@
 use std::time::Duration;
 
 use ancf::dynamics::{Motion, Window};
+use ancf::element::Element;
 use ancf::statics::Settled;
-use ancf::system::Mechanics;
+use ancf::system::{Mechanics, System};
 
 use super::{Audit, StartState};
-use crate::assemble::{Assembly, BeltElementType};
+use crate::assemble::Assembly;
 use crate::drive::Drive;
 use crate::history::History;
 use crate::layout::Layout;
-use crate::observe::{BeltSystem, Observer, Powers, ProfileRow, PulleyState, SpanState, Stored};
+use crate::observe::{Observer, Powers, ProfileRow, PulleyLaw, PulleyState, SpanState, Stored};
 
 /// A pulley that hardly takes a torque is judged by this part of the tension at rest times its radius: what
 /// accuracy means for the drive as a whole.
@@ -38,6 +39,8 @@ pub(super) struct Recorder {
     powers: Powers,
     work: Powers,
     largest_residual: f64,
+    /// Time of the last accepted state [s].
+    last_time: f64,
     /// Mean tension at rest [N].
     rest_tension: f64,
     /// For each pulley: torque last, its integral, the integral of its magnitude, first speed, now.
@@ -54,7 +57,7 @@ struct Momentum {
 }
 
 impl Recorder {
-    pub fn new<E: BeltElementType>(drive: &Drive, assembly: &Assembly<E>) -> Self {
+    pub fn new<E: Element, L: PulleyLaw<E>>(drive: &Drive, assembly: &Assembly<E, L>) -> Self {
         let names: Vec<String> = drive.pulley.iter().map(|p| p.name.clone()).collect();
         let inertias: Vec<f64> = drive.pulley.iter().map(|p| p.inertia).collect();
         let end = drive.run.end_time;
@@ -70,7 +73,7 @@ impl Recorder {
             recording: Duration::ZERO,
             pulleys: vec![PulleyState::default(); names.len()],
             spans: vec![SpanState::default(); names.len()],
-            history: History::new(&names),
+            history: History::new(&names, drive.belt.element.is_spatial()),
             profile: Vec::new(),
             state: assembly.motion.clone(),
             output_times: output_times(end, drive.run.output_interval),
@@ -81,15 +84,16 @@ impl Recorder {
             powers: Powers::default(),
             work: Powers::default(),
             largest_residual: 0.0,
+            last_time: 0.0,
             rest_tension: 0.0,
             momenta: vec![Momentum::default(); names.len()],
         }
     }
 
     /// Observes the state before the first step.
-    pub fn start<E: BeltElementType>(
+    pub fn start<E: Element, L: PulleyLaw<E>>(
         &mut self,
-        assembly: &Assembly<E>,
+        assembly: &Assembly<E, L>,
         settled: Settled,
     ) -> StartState {
         let system = &assembly.system;
@@ -114,13 +118,22 @@ impl Recorder {
     }
 
     /// Takes the step of `window` in: balances first, then rows at the output times within it.
-    pub fn step<E: BeltElementType>(&mut self, system: &BeltSystem<E>, window: Window<'_>) {
+    pub fn step<E: Element, L: PulleyLaw<E>>(&mut self, system: &System<E, L>, window: Window<'_>) {
         let (t0, t1) = (window.from.time, window.to.time);
         let step = t1 - t0;
 
         // The trapezoidal rule is of second order as the schemes are. Simpson's rule on interpolated
         // states left forty times the residual on the base case, probably because accelerations carry
         // the noise of fast modes into velocities interpolated with them.
+        if t0 > self.last_time {
+            // Forces have jumped since the last step.
+            self.observer.look(system, window.from);
+            self.powers = self.observer.powers(system, window.from);
+            for (p, momentum) in self.momenta.iter_mut().enumerate() {
+                momentum.torque = self.observer.momentum(system, window.from, p).1;
+            }
+        }
+        self.last_time = t1;
         self.observer.look(system, window.to);
         let last = self.observer.powers(system, window.to);
         for (p, momentum) in self.momenta.iter_mut().enumerate() {
@@ -171,7 +184,12 @@ impl Recorder {
         self.recording += cpu.elapsed();
     }
 
-    fn row<E: BeltElementType>(&mut self, system: &BeltSystem<E>, state: &Motion, work: &Powers) {
+    fn row<E: Element, L: PulleyLaw<E>>(
+        &mut self,
+        system: &System<E, L>,
+        state: &Motion,
+        work: &Powers,
+    ) {
         self.observer.survey(system, state);
         self.observer.pulleys(system, state, &mut self.pulleys);
         let stored = self.observer.stored(system, state);
