@@ -216,7 +216,7 @@ fn run<E: Element, L: PulleyLaw<E>>(
     let control = control::control(drive, &assembly.mounting);
 
     let mut recorder = Recorder::new(drive, &assembly);
-    let start = recorder.start(&assembly, settled);
+    let start = recorder.start(drive, &assembly, settled);
     let mut steps = 0;
     let mut stopped = None;
     let mut motion = assembly.motion.clone();
@@ -227,7 +227,7 @@ fn run<E: Element, L: PulleyLaw<E>>(
         end,
         &control,
         |system, window| {
-            recorder.step(system, window);
+            let pace = recorder.step(system, window);
             steps += 1;
             let progress = Progress {
                 time: window.to.time,
@@ -235,7 +235,7 @@ fn run<E: Element, L: PulleyLaw<E>>(
                 steps,
             };
             match observer(&progress) {
-                Flow::Continue => ControlFlow::Continue(()),
+                Flow::Continue => ControlFlow::Continue(pace),
                 Flow::Stop => {
                     stopped = Some(window.to.time);
                     ControlFlow::Break(())

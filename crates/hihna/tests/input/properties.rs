@@ -178,7 +178,7 @@ fn pulleys() -> impl Strategy<Value = Vec<Pulley>> {
                     name: format!("pulley_{i}"),
                     center: [10.0 * angle.cos(), 10.0 * angle.sin()],
                     radius,
-                    displacement: flag.then(|| Displacement {
+                    displacement: flag.then_some(Displacement {
                         x: Profile::Varying(Varying::HalfCosine {
                             from: 0.0,
                             to: radius,
