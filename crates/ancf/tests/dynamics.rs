@@ -209,6 +209,7 @@ fn integrate_hits_kinks_and_keeps_energy() {
             error_tolerance: Some(1.0e-4),
             newton_tolerance: 1.0e-9,
             kinks: kinks.clone(),
+            jumps: Vec::new(),
         };
         let mut times = Vec::new();
         let statistics = integrate(&mut system, &mut motion, FLIGHT, &control, |_, window| {

@@ -8,16 +8,16 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use ancf::dynamics::{IntegrationError, Statistics, integrate};
-use ancf::element::{BeltBeam2, CubicBeam2, LinearBeam2};
+use ancf::element::{BeltBeam2, CubicBeam2, Element, LinearBeam2};
 use ancf::statics::{Settle, Settled, StaticsError, settle_watched};
 use ancf::system::Mechanics;
 use thiserror::Error;
 
-use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, Warning};
+use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, Warning};
 use crate::drive::{BeltElement, Drive, Joint};
 use crate::history::History;
 use crate::layout::Layout;
-use crate::observe::ProfileRow;
+use crate::observe::{ProfileRow, PulleyLaw};
 
 pub use control::nominal_speed;
 use place::place;
@@ -180,24 +180,52 @@ pub fn simulate(
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Outcome, RunError> {
     match drive.belt.element {
-        BeltElement::BeltBeam => run::<BeltBeam2>(drive, observer),
-        BeltElement::CubicBeam => run::<CubicBeam2>(drive, observer),
-        BeltElement::LinearBeam => run::<LinearBeam2>(drive, observer),
+        BeltElement::BeltBeam => planar::<BeltBeam2>(drive, observer),
+        BeltElement::CubicBeam => planar::<CubicBeam2>(drive, observer),
+        BeltElement::LinearBeam => planar::<LinearBeam2>(drive, observer),
+        BeltElement::Plate => run(
+            drive,
+            observer,
+            || PlateAssembly::of_plates(drive),
+            |assembly| {
+                assembly.release_plates(drive);
+                Ok(())
+            },
+        ),
     }
 }
 
-fn run<E: BeltElementType>(
+fn planar<E: BeltElementType>(
     drive: &Drive,
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Outcome, RunError> {
+    run(
+        drive,
+        observer,
+        || Assembly::<E>::new(drive),
+        |assembly| {
+            if drive.belt.joint == Joint::Multipliers {
+                assembly.open_joint(drive)?;
+            }
+            assembly.release(drive);
+            Ok(())
+        },
+    )
+}
+
+/// Runs what `assemble` puts together; `release` gives the settled belt its friction and the pulleys their
+/// torques.
+fn run<E: Element, L: PulleyLaw<E>>(
+    drive: &Drive,
+    observer: &mut dyn FnMut(&Progress) -> Flow,
+    assemble: impl FnOnce() -> Result<Assembly<E, L>, AssemblyError>,
+    release: impl FnOnce(&mut Assembly<E, L>) -> Result<(), AssemblyError>,
+) -> Result<Outcome, RunError> {
     let wall = Instant::now();
     let end = drive.run.end_time;
-    let mut assembly = Assembly::<E>::new(drive)?;
+    let mut assembly = assemble()?;
     let settled = settle_on_pulleys(drive, &mut assembly, observer)?;
-    if drive.belt.joint == Joint::Multipliers {
-        assembly.open_joint(drive)?;
-    }
-    assembly.release(drive);
+    release(&mut assembly)?;
     let control = control::control(drive, &assembly.mounting);
     let count = end / control.step;
     // Also where the step is no number.
@@ -270,14 +298,12 @@ fn run<E: BeltElementType>(
 }
 
 /// Moves the belt from its path to its equilibrium on the frictionless pulleys (see the guide).
-fn settle_on_pulleys<E: BeltElementType>(
+fn settle_on_pulleys<E: Element, L: PulleyLaw<E>>(
     drive: &Drive,
-    assembly: &mut Assembly<E>,
+    assembly: &mut Assembly<E, L>,
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Settled, RunError> {
     // The contact's own frequency sets how strongly the first steps are held back.
-    let belt = &drive.belt;
-    let line_density = belt.density * belt.width * belt.thickness;
     let smallest = drive
         .pulley
         .iter()
@@ -292,7 +318,7 @@ fn settle_on_pulleys<E: BeltElementType>(
         0.0,
         &mut assembly.motion.q,
         Settle {
-            shift: drive.contact.stiffness / line_density,
+            shift: drive.contact.stiffness / drive.contact_mass(),
             shrink: 0.3,
             step_limit: 0.1 * smallest,
             tolerance: 1.0e-10 * smallest,

@@ -24,6 +24,8 @@ const HALVINGS_BEFORE_FALLBACK: u32 = 3;
 const MAX_HALVINGS: u32 = 10;
 /// Steps that the fall-back makes before generalized-alpha is tried again.
 const FALLBACK_STEPS: usize = 32;
+/// How far before a jump of the forces a step ends, by the length of a step: nothing moves in that time.
+const BEFORE_A_JUMP: f64 = 1.0e-9;
 /// Good steps before the step is doubled.
 const PATIENCE: usize = 3;
 /// Halvings that an observer may ask for beyond what errors of prediction call for.
@@ -56,6 +58,9 @@ pub struct Control {
     pub newton_tolerance: f64,
     /// Times that steps must hit [s].
     pub kinks: Vec<f64>,
+    /// Times at which forces jump [s]: a step ends just before, the next begins at the jump with new
+    /// accelerations.
+    pub jumps: Vec<f64>,
 }
 
 impl Control {
@@ -68,6 +73,7 @@ impl Control {
             error_tolerance: None,
             newton_tolerance: 1.0e-9,
             kinks: Vec::new(),
+            jumps: Vec::new(),
         }
     }
 }
@@ -163,6 +169,9 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
         .filter(|kink| *kink > motion.time && *kink < end)
         .collect();
     boundaries.push(end);
+    let jumps = Jumps::within(control, motion.time, end);
+    boundaries.retain(|boundary| !jumps.hold(*boundary));
+    boundaries.extend(jumps.0.iter().map(|(before, _)| *before));
     boundaries.sort_by(f64::total_cmp);
     boundaries.dedup();
     let mut level = 0;
@@ -235,8 +244,45 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
         }
         motion.time = boundary;
         level = grid.level;
+        if let Some(after) = jumps.after(boundary) {
+            motion.time = after;
+            stage.accelerations(system, motion);
+            motion.algorithmic.copy_from_slice(&motion.a);
+        }
     }
     Ok(stage.statistics)
+}
+
+/// The jumps of the forces: the last time before each, and its own.
+struct Jumps(Vec<(f64, f64)>);
+
+impl Jumps {
+    fn within(control: &Control, start: f64, end: f64) -> Self {
+        let before = |jump: f64| jump - BEFORE_A_JUMP * control.step;
+        let jumps = control.jumps.iter().copied();
+        Self(
+            jumps
+                .filter(|jump| before(*jump) > start && *jump < end)
+                .map(|jump| (before(jump), jump))
+                .collect(),
+        )
+    }
+
+    /// Whether `time` is a jump.
+    fn hold(&self, time: f64) -> bool {
+        self.0
+            .iter()
+            .any(|(_, jump)| jump.to_bits() == time.to_bits())
+    }
+
+    /// The jump that `time` is just before.
+    fn after(&self, time: f64) -> Option<f64> {
+        let found = self
+            .0
+            .iter()
+            .find(|(before, _)| before.to_bits() == time.to_bits());
+        found.map(|(_, jump)| *jump)
+    }
 }
 
 /// Largest difference [m/s] between the velocities of nodes found and those predicted by constant

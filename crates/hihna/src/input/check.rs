@@ -14,6 +14,8 @@ pub(crate) struct Checker {
     pub structural: Vec<InputError>,
     /// Values outside their range.
     pub ranges: Vec<Problem>,
+    /// Whether contact is stated per area of belt, not per length.
+    pub per_area: bool,
 }
 
 impl Checker {
@@ -21,6 +23,9 @@ impl Checker {
     pub fn check(&mut self, shape: &Shape, node: &Node, path: &FieldPath) -> Option<Value> {
         match (shape, &node.value) {
             (Shape::Quantity(dimension, bounds), value) => {
+                if let Some(per_area) = dimension.per_area().filter(|_| self.per_area) {
+                    return self.check(&Shape::Quantity(per_area, bounds.clone()), node, path);
+                }
                 let number = self.quantity(shape, dimension, node, value, path)?;
                 self.range(shape, bounds, number, dimension.unit, path);
                 Some(Value::Float(number))

@@ -3,16 +3,17 @@
 use std::time::Duration;
 
 use ancf::dynamics::{Motion, Pace, Window};
+use ancf::element::Element;
 use ancf::statics::Settled;
-use ancf::system::Mechanics;
+use ancf::system::{Mechanics, System};
 
 use super::control::nominal_speed;
 use super::{Audit, StartState};
-use crate::assemble::{Assembly, BeltElementType, Mounting};
+use crate::assemble::{Assembly, Mounting};
 use crate::drive::Drive;
 use crate::history::History;
 use crate::layout::Layout;
-use crate::observe::{BeltSystem, Observer, Powers, ProfileRow, PulleyState, SpanState, Stored};
+use crate::observe::{Observer, Powers, ProfileRow, PulleyLaw, PulleyState, SpanState, Stored};
 
 /// A pulley that hardly takes a torque is judged by this part of the tension at rest times its radius: what
 /// accuracy means for the drive as a whole.
@@ -40,6 +41,8 @@ pub(super) struct Recorder {
     work: Powers,
     residual: f64,
     largest_residual: f64,
+    /// Time of the last accepted state [s].
+    last_time: f64,
     /// Kinetic energy at nominal speed and strain energy at rest [J].
     held: f64,
     tolerance: f64,
@@ -59,7 +62,7 @@ struct Momentum {
 }
 
 impl Recorder {
-    pub fn new<E: BeltElementType>(drive: &Drive, assembly: &Assembly<E>) -> Self {
+    pub fn new<E: Element, L: PulleyLaw<E>>(drive: &Drive, assembly: &Assembly<E, L>) -> Self {
         let names: Vec<String> = drive.pulley.iter().map(|p| p.name.clone()).collect();
         let inertias: Vec<f64> = drive.pulley.iter().map(|p| p.inertia).collect();
         let end = drive.run.end_time;
@@ -75,7 +78,7 @@ impl Recorder {
             recording: Duration::ZERO,
             pulleys: vec![PulleyState::default(); names.len()],
             spans: vec![SpanState::default(); names.len()],
-            history: History::new(&names),
+            history: History::new(&names, drive.belt.element.is_spatial()),
             profile: Vec::new(),
             state: assembly.motion.clone(),
             output_times: output_times(end, drive.run.output_interval),
@@ -87,6 +90,7 @@ impl Recorder {
             work: Powers::default(),
             residual: 0.0,
             largest_residual: 0.0,
+            last_time: 0.0,
             held: 0.0,
             tolerance: 0.1 * drive.run.accuracy,
             rest_tension: 0.0,
@@ -95,10 +99,10 @@ impl Recorder {
     }
 
     /// Observes the state before the first step.
-    pub fn start<E: BeltElementType>(
+    pub fn start<E: Element, L: PulleyLaw<E>>(
         &mut self,
         drive: &Drive,
-        assembly: &Assembly<E>,
+        assembly: &Assembly<E, L>,
         settled: Settled,
     ) -> StartState {
         let system = &assembly.system;
@@ -125,10 +129,23 @@ impl Recorder {
 
     /// Takes the step of `window` in: balances first, then rows at the output times within it. Returns the
     /// pace that keeps the energy balance.
-    pub fn step<E: BeltElementType>(&mut self, system: &BeltSystem<E>, window: Window<'_>) -> Pace {
+    pub fn step<E: Element, L: PulleyLaw<E>>(
+        &mut self,
+        system: &System<E, L>,
+        window: Window<'_>,
+    ) -> Pace {
         let (t0, t1) = (window.from.time, window.to.time);
         let step = t1 - t0;
 
+        if t0 > self.last_time {
+            // Forces have jumped since the last step.
+            self.observer.look(system, window.from);
+            self.powers = self.observer.powers(system, window.from);
+            for (p, momentum) in self.momenta.iter_mut().enumerate() {
+                momentum.torque = self.observer.momentum(system, window.from, p).1;
+            }
+        }
+        self.last_time = t1;
         // The trapezoidal rule is of second order as the schemes are. Simpson's rule on interpolated
         // states left forty times the residual on the base case, probably because accelerations carry
         // the noise of fast modes into velocities interpolated with them.
@@ -198,7 +215,12 @@ impl Recorder {
         }
     }
 
-    fn row<E: BeltElementType>(&mut self, system: &BeltSystem<E>, state: &Motion, work: &Powers) {
+    fn row<E: Element, L: PulleyLaw<E>>(
+        &mut self,
+        system: &System<E, L>,
+        state: &Motion,
+        work: &Powers,
+    ) {
         self.observer.survey(system, state);
         self.observer.pulleys(system, state, &mut self.pulleys);
         let stored = self.observer.stored(system, state);
