@@ -5,7 +5,7 @@ mod completions;
 mod diagnostics;
 mod drive_source;
 mod progress;
-mod quantities;
+mod report;
 mod run;
 mod schema;
 mod standard_output;
@@ -17,6 +17,7 @@ mod validate;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use hihna::quantities;
 
 /// Simulates belt drives that are described in one text file.
 #[derive(Debug, Parser)]
@@ -36,6 +37,7 @@ enum Command {
     Validate(validate::Arguments),
     Check(check::Arguments),
     Schema(schema::Arguments),
+    Report(report::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -46,7 +48,7 @@ fn main() -> ExitCode {
         Command::Steady(arguments) => arguments.json,
         Command::Validate(arguments) => arguments.json,
         Command::Check(arguments) => arguments.json,
-        Command::Schema(_) | Command::Completions(_) => false,
+        Command::Schema(_) | Command::Report(_) | Command::Completions(_) => false,
     };
     let result = match command {
         Command::Run(arguments) => run::run(&arguments),
@@ -54,6 +56,7 @@ fn main() -> ExitCode {
         Command::Validate(arguments) => validate::validate(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
     };
     match result {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
+use hihna::frames;
 use hihna::record;
 use hihna::simulate::{Flow, simulate};
 use hihna::summary::Summary;
@@ -17,6 +18,7 @@ use crate::{standard_output, summary};
 
 /// Simulate a drive, write a result folder and print a summary.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub struct Arguments {
     #[command(flatten)]
     source: DriveSource,
@@ -28,6 +30,14 @@ pub struct Arguments {
     /// Overwrite an existing result folder
     #[arg(long)]
     force: bool,
+
+    /// Add `report.html`: drawing, tables, charts and the belt in motion
+    #[arg(long)]
+    report: bool,
+
+    /// Add the belt in motion for ParaView, `belt.pvd`
+    #[arg(long)]
+    vtk: bool,
 
     /// Print one JSON object, as in `summary.json`, to standard output
     #[arg(long)]
@@ -48,7 +58,10 @@ struct Answer<'a> {
 
 /// Runs, records and tells.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let drive = arguments.source.load()?;
+    let mut drive = arguments.source.load()?;
+    if arguments.report || arguments.vtk {
+        frames::choose(&mut drive);
+    }
     let folder = arguments
         .out
         .clone()
@@ -70,7 +83,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     bar.finish();
     let outcome = outcome?;
 
-    record::write(&folder, &drive, &outcome, arguments.force).map_err(Failure::Record)?;
+    let options = record::Options {
+        overwrite: arguments.force,
+        vtk: arguments.vtk,
+    };
+    record::write(&folder, &drive, &outcome, options).map_err(Failure::Record)?;
+    if arguments.report {
+        hihna_report::write(&folder)?;
+    }
     let found = Summary::new(&drive, &outcome);
     for warning in &found.warnings {
         print_warning(warning);

@@ -359,6 +359,13 @@ pub struct Run {
     /// Times at which the belt's profile is recorded [s]; empty: the end.
     #[schemars(schema_with = "units::times")]
     pub profile_times: Vec<f64>,
+    /// Time between the frames of the moving belt [s]; absent: no frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "units::time", extend("exclusiveMinimum" = 0.0))]
+    pub frame_interval: Option<f64>,
+    /// Time of the first frame [s].
+    #[schemars(schema_with = "units::time", extend("minimum" = 0.0))]
+    pub frame_start: f64,
 }
 
 /// The time step: chosen by the program, or fixed.
@@ -413,6 +420,8 @@ impl Default for Run {
             integrator: Integrator::Auto,
             start: Start::Rest,
             profile_times: Vec::new(),
+            frame_interval: None,
+            frame_start: 0.0,
         }
     }
 }

@@ -58,6 +58,8 @@ pub struct Outcome {
     pub history: History,
     /// The belt at the profile times.
     pub profile: Vec<ProfileRow>,
+    /// The belt at the times of the frames.
+    pub frames: Vec<ProfileRow>,
     /// What the stepping cost.
     pub statistics: Statistics,
     /// CPU time of the stepping alone, without the rows of the records [s].
@@ -239,6 +241,7 @@ fn run<E: BeltElementType>(
         audit,
         history: recorder.history,
         profile: recorder.profile,
+        frames: recorder.frames,
         statistics,
         cpu_seconds,
         wall_seconds: wall.elapsed().as_secs_f64(),

@@ -238,6 +238,8 @@ fn run() -> impl Strategy<Value = Run> {
             } else {
                 Vec::new()
             },
+            frame_interval: flag.then_some(end_time * part),
+            frame_start: if flag { end_time * when } else { 0.0 },
         },
     )
 }
