@@ -190,7 +190,7 @@ fn run<E: BeltElementType>(
     let control = control::control(drive, &assembly.mounting);
 
     let mut recorder = Recorder::new(drive, &assembly);
-    let start = recorder.start(&assembly, settled);
+    let start = recorder.start(drive, &assembly, settled);
     let mut steps = 0;
     let mut stopped = None;
     let mut motion = assembly.motion.clone();
@@ -201,7 +201,7 @@ fn run<E: BeltElementType>(
         end,
         &control,
         |system, window| {
-            recorder.step(system, window);
+            let pace = recorder.step(system, window);
             steps += 1;
             let progress = Progress {
                 time: window.to.time,
@@ -209,7 +209,7 @@ fn run<E: BeltElementType>(
                 steps,
             };
             match observer(&progress) {
-                Flow::Continue => ControlFlow::Continue(()),
+                Flow::Continue => ControlFlow::Continue(pace),
                 Flow::Stop => {
                     stopped = Some(window.to.time);
                     ControlFlow::Break(())

@@ -331,6 +331,20 @@ fn audits_close_in_slow_drives_and_short_runs() {
     assert_audit(&run(&[DRIVER, DRIVEN], LENGTH, &["run.end_time=0.15"]));
 }
 
+/// A driver that has its full speed at once slips under the belt, which swings and beats: errors of
+/// prediction do not see what that costs, the energy balance does.
+#[test]
+fn audits_close_when_the_driver_starts_with_a_jump() {
+    let outcome = run(
+        &[DRIVER, DRIVEN],
+        LENGTH,
+        &["pulley.driver.speed=12.0", "run.end_time=0.1"],
+    );
+    assert_audit(&outcome);
+    let lost = last(&outcome, "energy.friction_loss") / last(&outcome, "energy.input");
+    assert!(lost > 0.5, "friction takes {lost} of the input");
+}
+
 /// A small idler that presses far into the belt's path: the start is hard to settle.
 #[test]
 fn a_small_idler_deep_in_the_path_settles() {

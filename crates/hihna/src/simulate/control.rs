@@ -15,8 +15,8 @@ const REFERENCE_ACCURACY: f64 = 1.0e-3;
 /// by less than 1e-4 of it between them.
 const PREDICTION_TOLERANCE: f64 = 0.03;
 
-/// Largest step relative to `1 / omega` of the slowest swing, or of the fastest prescribed irregularity: its second-order dispersion
-/// `(omega h)² / 12` is 2e-4 then.
+/// Largest step relative to `1 / omega` of the slowest swing, or of the fastest prescribed irregularity: its
+/// second-order dispersion `(omega h)² / 12` is 2e-4 then.
 const SWING_STEP: f64 = 0.05;
 
 /// Surface speed of the fastest driver [m/s]; where nothing is driven, a hundredth of the belt's

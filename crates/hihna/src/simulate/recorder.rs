@@ -2,12 +2,13 @@
 
 use std::time::Duration;
 
-use ancf::dynamics::{Motion, Window};
+use ancf::dynamics::{Motion, Pace, Window};
 use ancf::statics::Settled;
 use ancf::system::Mechanics;
 
+use super::control::nominal_speed;
 use super::{Audit, StartState};
-use crate::assemble::{Assembly, BeltElementType};
+use crate::assemble::{Assembly, BeltElementType, Mounting};
 use crate::drive::Drive;
 use crate::history::History;
 use crate::layout::Layout;
@@ -40,7 +41,11 @@ pub(super) struct Recorder {
     /// Powers at the last accepted state and work since the start.
     powers: Powers,
     work: Powers,
+    residual: f64,
     largest_residual: f64,
+    /// Kinetic energy at nominal speed and strain energy at rest [J].
+    held: f64,
+    tolerance: f64,
     /// Mean tension at rest [N].
     rest_tension: f64,
     /// For each pulley: torque last, its integral, the integral of its magnitude, first speed, now.
@@ -88,7 +93,10 @@ impl Recorder {
             initial: Stored::default(),
             powers: Powers::default(),
             work: Powers::default(),
+            residual: 0.0,
             largest_residual: 0.0,
+            held: 0.0,
+            tolerance: 0.1 * drive.run.accuracy,
             rest_tension: 0.0,
             momenta: vec![Momentum::default(); names.len()],
         }
@@ -97,6 +105,7 @@ impl Recorder {
     /// Observes the state before the first step.
     pub fn start<E: BeltElementType>(
         &mut self,
+        drive: &Drive,
         assembly: &Assembly<E>,
         settled: Settled,
     ) -> StartState {
@@ -106,6 +115,7 @@ impl Recorder {
         system.prescribe(begun.time, &mut begun.q, &mut begun.v, &mut begun.a);
         self.observer.survey(system, &begun);
         self.initial = self.observer.stored(system, &begun);
+        self.held = self.initial.strain + kinetic_at_nominal_speed(drive, &assembly.mounting);
         self.powers = self.observer.powers(system, &begun);
         for (p, momentum) in self.momenta.iter_mut().enumerate() {
             let (speed, torque) = self.observer.momentum(system, &begun, p);
@@ -121,8 +131,9 @@ impl Recorder {
         }
     }
 
-    /// Takes the step of `window` in: balances first, then rows at the output times within it.
-    pub fn step<E: BeltElementType>(&mut self, system: &BeltSystem<E>, window: Window<'_>) {
+    /// Takes the step of `window` in: balances first, then rows at the output times within it. Returns the
+    /// pace that keeps the energy balance.
+    pub fn step<E: BeltElementType>(&mut self, system: &BeltSystem<E>, window: Window<'_>) -> Pace {
         let (t0, t1) = (window.from.time, window.to.time);
         let step = t1 - t0;
 
@@ -151,6 +162,8 @@ impl Recorder {
 
         let stored = self.observer.stored(system, window.to);
         let residual = self.residual(&stored, &self.work);
+        let pace = self.pace(residual);
+        self.residual = residual;
         self.largest_residual = self.largest_residual.max(residual.abs());
 
         let slack = 1.0e-9 * step;
@@ -159,7 +172,7 @@ impl Recorder {
             && !due(&self.profile_times, self.next_profile)
             && !due(&self.frame_times, self.next_frame)
         {
-            return;
+            return pace;
         }
         let cpu = cpu_time::ThreadTime::now();
         let mut state = std::mem::replace(&mut self.state, Motion::zero(0));
@@ -185,6 +198,20 @@ impl Recorder {
         }
         self.state = state;
         self.recording += cpu.elapsed();
+        pace
+    }
+
+    /// Shorter steps while more than half of the tolerated energy is missing and the balance goes on
+    /// worsening. What the drive holds at nominal speed counts as turned over, as every work has a start.
+    fn pace(&self, residual: f64) -> Pace {
+        let allowed = 0.5 * self.tolerance * (self.work.turnover + self.held);
+        if residual.abs() > allowed && residual.abs() > self.residual.abs() {
+            Pace::Finer
+        } else if residual.abs() > 0.8 * allowed {
+            Pace::Hold
+        } else {
+            Pace::Free
+        }
     }
 
     fn row<E: BeltElementType>(&mut self, system: &BeltSystem<E>, state: &Motion, work: &Powers) {
@@ -230,9 +257,20 @@ impl Recorder {
             turnover: self.work.turnover,
             energy_residual: self.largest_residual / scale,
             torque_residual,
-            tolerance: 0.1 * drive.run.accuracy,
+            tolerance: self.tolerance,
         }
     }
+}
+
+/// Kinetic energy [J] of belt and pulleys without slip at the speed of the fastest driver.
+fn kinetic_at_nominal_speed(drive: &Drive, mounting: &Mounting) -> f64 {
+    let belt = &drive.belt;
+    let rotors = drive
+        .pulley
+        .iter()
+        .map(|p| p.inertia / (p.radius * p.radius));
+    let mass = belt.density * belt.width * belt.thickness * mounting.length + rotors.sum::<f64>();
+    0.5 * mass * nominal_speed(drive).powi(2)
 }
 
 /// `start` and multiples of `interval` after it, and the end.
