@@ -4,6 +4,7 @@ mod check;
 mod completions;
 mod diagnostics;
 mod drive_source;
+mod loudness;
 mod progress;
 mod report;
 mod run;
@@ -19,12 +20,17 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use hihna::quantities;
 
+use loudness::Loudness;
+
 /// Simulates belt drives that are described in one text file.
 #[derive(Debug, Parser)]
 #[command(name = "hihna", version, about, max_term_width = 100, after_help = AFTER_HELP)]
 struct Program {
     #[command(subcommand)]
     command: Command,
+
+    #[command(flatten)]
+    loudness: Loudness,
 }
 
 const AFTER_HELP: &str = "\
@@ -42,7 +48,8 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let command = Program::parse().command;
+    let Program { command, loudness } = Program::parse();
+    loudness.start_logs();
     let json = match &command {
         Command::Run(arguments) => arguments.json,
         Command::Steady(arguments) => arguments.json,
@@ -51,9 +58,9 @@ fn main() -> ExitCode {
         Command::Schema(_) | Command::Report(_) | Command::Completions(_) => false,
     };
     let result = match command {
-        Command::Run(arguments) => run::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments, loudness),
         Command::Steady(arguments) => steady::steady(&arguments),
-        Command::Validate(arguments) => validate::validate(&arguments),
+        Command::Validate(arguments) => validate::validate(&arguments, loudness),
         Command::Check(arguments) => check::check(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
         Command::Report(arguments) => report::report(&arguments),

@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use crate::diagnostics::{Failure, print_warning};
 use crate::drive_source::DriveSource;
+use crate::loudness::Loudness;
 use crate::progress::Bar;
 use crate::{standard_output, summary};
 
@@ -42,10 +43,6 @@ pub struct Arguments {
     /// Print one JSON object, as in `summary.json`, to standard output
     #[arg(long)]
     pub json: bool,
-
-    /// Show neither progress nor summary
-    #[arg(long)]
-    quiet: bool,
 }
 
 /// What `--json` prints: the summary and where the files are.
@@ -57,7 +54,7 @@ struct Answer<'a> {
 }
 
 /// Runs, records and tells.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
     let mut drive = arguments.source.load()?;
     if arguments.report || arguments.vtk {
         frames::choose(&mut drive);
@@ -71,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))?;
-    let mut bar = Bar::new(arguments.quiet);
+    let mut bar = Bar::new(loudness.shows_progress());
     let outcome = simulate(&drive, &mut |progress| {
         bar.update(progress);
         if interrupted.load(Ordering::Relaxed) {
@@ -100,8 +97,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             folder: folder.display().to_string(),
             summary: &found,
         })?;
-    } else if !arguments.quiet {
+    } else if !loudness.quiet {
         standard_output::print(&summary::in_words(&found, &folder))?;
+        if loudness.verbose {
+            standard_output::print(&summary::solver_in_words(&found))?;
+        }
     }
     if found.audit.passed {
         return Ok(());

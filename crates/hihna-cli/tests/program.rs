@@ -118,6 +118,34 @@ fn the_summary_is_in_words() {
     assert_eq!(text(&quiet.stdout), "");
 }
 
+/// `--verbose` adds what the solver did; logs go to standard error, so that `--json` stays one object.
+#[test]
+fn the_solver_tells_what_it_does_if_asked() {
+    let folder = TempDir::new().unwrap();
+    let verbose = [&["run", "--verbose", "--out", "a"], SHORT.as_slice()].concat();
+    let output = hihna(&folder, &verbose);
+    for part in [
+        "force evaluations",
+        "factorizations",
+        "processor, stepping alone",
+    ] {
+        assert!(text(&output.stdout).contains(part), "{part}: {output:?}");
+    }
+    for part in ["settled", "stepping", "done"] {
+        assert!(text(&output.stderr).contains(part), "{part}: {output:?}");
+    }
+    let json = [&["run", "--json", "--out", "b"], SHORT.as_slice()].concat();
+    let output = program(folder.path())
+        .env("RUST_LOG", "hihna=info")
+        .args(&json)
+        .output()
+        .unwrap();
+    assert!(answer(&output)["solver"]["steps"].is_u64());
+    assert!(text(&output.stderr).contains("settled"), "{output:?}");
+    let both = hihna(&folder, &["run", "--quiet", "--verbose"]);
+    assert_eq!(status(&both), 2);
+}
+
 /// The page and ParaView's files stand in the folder, and one more run may replace it all.
 #[test]
 fn reports_and_frames_are_part_of_the_folder() {

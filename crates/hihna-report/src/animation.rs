@@ -83,6 +83,10 @@ pub fn animation(
             }
         }
     }
+    if range[0] > range[1] {
+        // No tension is a number.
+        range = [0.0; 2];
+    }
     let times: Vec<f64> = shown.iter().map(|frame| frame[0].time).collect();
     let pulleys = drive
         .pulley

@@ -243,12 +243,7 @@ pub fn dash(i: usize) -> DashType {
 pub fn layout(x: &str, y: &str, legend: bool) -> Layout {
     Layout::new()
         .x_axis(Axis::new().title(x).auto_margin(true))
-        .y_axis(
-            Axis::new()
-                .title(y)
-                .auto_margin(true)
-                .exponent_format(plotly::common::ExponentFormat::Power),
-        )
+        .y_axis(Axis::new().title(y).auto_margin(true))
         .height(320)
         .margin(Margin::new().left(64).right(16).top(18).bottom(48))
         .hover_mode(HoverMode::XUnified)

@@ -215,7 +215,7 @@
       pen.fillStyle = colour("--ink");
       for (const p of pulleys) {
         const r = p.radius * scale;
-        const inside = pen.measureText(p.name).width < 1.4 * r;
+        const inside = pen.measureText(p.name).width < 1.7 * r;
         if (inside) {
           // A plate behind the name keeps the spokes from striking it through.
           const half = pen.measureText(p.name).width / 2 + 5;

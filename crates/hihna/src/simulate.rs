@@ -191,6 +191,18 @@ fn run<E: BeltElementType>(
 
     let mut recorder = Recorder::new(drive, &assembly);
     let start = recorder.start(drive, &assembly, settled);
+    tracing::info!(
+        iterations = start.iterations,
+        tension = start.tension,
+        penetration = start.penetration,
+        "settled on the pulleys"
+    );
+    tracing::info!(
+        integrator = control::name(control.method),
+        step = control.step,
+        newton_tolerance = control.newton_tolerance,
+        "stepping"
+    );
     let mut steps = 0;
     let mut stopped = None;
     let mut motion = assembly.motion.clone();
@@ -236,6 +248,14 @@ fn run<E: BeltElementType>(
     }
     let cpu_seconds = (cpu.elapsed().saturating_sub(recorder.recording)).as_secs_f64();
     let audit = recorder.audit(drive);
+    tracing::info!(
+        steps = statistics.steps,
+        halved = statistics.halved_steps,
+        fallback = statistics.fallback_steps,
+        energy_residual = audit.energy_residual,
+        torque_residual = audit.torque_residual,
+        "done"
+    );
     Ok(Outcome {
         start,
         audit,
