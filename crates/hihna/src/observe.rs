@@ -8,7 +8,7 @@ use ancf::dynamics::Motion;
 use ancf::element::{Element, LineElement};
 use ancf::system::{Mechanics, State, System};
 
-use crate::contact::{BeltContact, PulleyContact};
+use crate::contact::{BeltContact, BeltPoint, PulleyContact};
 use crate::layout::Layout;
 
 use belt::BeltSurvey;
@@ -142,6 +142,20 @@ impl Observer {
     pub fn survey<E: LineElement>(&mut self, system: &BeltSystem<E>, motion: &Motion) {
         self.look(system, motion);
         self.belt.take(system, motion);
+    }
+
+    /// Takes in the belt at `q` as seen at `points`, all around it in order, and what it does to the
+    /// pulleys by `contacts`.
+    pub(crate) fn take_points<E: LineElement>(
+        &mut self,
+        system: &BeltSystem<E>,
+        q: &[f64],
+        points: Vec<BeltPoint>,
+        contacts: Vec<PulleyContact>,
+    ) {
+        self.contacts = contacts;
+        self.belt.points = points;
+        self.belt.examine(system, q);
     }
 
     /// Angle, speed and external torque of pulley `p` at `motion`, which was looked at last.

@@ -23,6 +23,9 @@ pub use control::nominal_speed;
 use place::place;
 use recorder::Recorder;
 
+/// Correction, in smallest radii, at which the belt is at rest.
+const REST: f64 = 1.0e-10;
+
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
@@ -180,7 +183,7 @@ fn run<E: BeltElementType>(
     let wall = Instant::now();
     let end = drive.run.end_time;
     let mut assembly = Assembly::<E>::new(drive)?;
-    let settled = settle_on_pulleys(drive, &mut assembly, observer)?;
+    let settled = settle_on_pulleys(drive, &mut assembly, REST, observer)?;
     if drive.belt.joint == Joint::Multipliers {
         assembly.open_joint(drive)?;
     }
@@ -250,10 +253,12 @@ fn run<E: BeltElementType>(
     })
 }
 
-/// Moves the belt from its path to its equilibrium on the frictionless pulleys (see the guide).
-fn settle_on_pulleys<E: BeltElementType>(
+/// Moves the belt from its path to its equilibrium on the frictionless pulleys (see the guide), to a correction below
+/// `accuracy` times the smallest radius.
+pub(crate) fn settle_on_pulleys<E: BeltElementType>(
     drive: &Drive,
     assembly: &mut Assembly<E>,
+    accuracy: f64,
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Settled, RunError> {
     // The contact's own frequency sets how strongly the first steps are held back.
@@ -276,7 +281,7 @@ fn settle_on_pulleys<E: BeltElementType>(
             shift: drive.contact.stiffness / line_density,
             shrink: 0.3,
             step_limit: 0.1 * smallest,
-            tolerance: 1.0e-10 * smallest,
+            tolerance: accuracy * smallest,
             max_iterations: 200,
         },
         &mut |_, _| match observer(&settling) {

@@ -46,6 +46,11 @@ pub(super) struct BeltSurvey {
 impl BeltSurvey {
     pub fn take<E: LineElement>(&mut self, system: &BeltSystem<E>, motion: &Motion) {
         system.law.points(state(motion), &mut self.points);
+        self.examine(system, &motion.q);
+    }
+
+    /// Works out what the points of the configuration `q` show.
+    pub fn examine<E: LineElement>(&mut self, system: &BeltSystem<E>, q: &[f64]) {
         let mesh = system.mesh();
         self.e.resize(E::DOF, 0.0);
         self.samples.clear();
@@ -57,7 +62,7 @@ impl BeltSurvey {
         let mut gathered = usize::MAX;
         for point in &self.points {
             if point.element != gathered {
-                mesh.gather(point.element, &motion.q, &mut self.e);
+                mesh.gather(point.element, q, &mut self.e);
                 gathered = point.element;
             }
             let element = &mesh.elements()[point.element];
