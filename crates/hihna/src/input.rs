@@ -15,12 +15,14 @@ use crate::drive::Drive;
 
 mod check;
 mod document;
+mod number_field;
 mod overrides;
 mod problem;
 mod rules;
 mod shape;
 
 pub use document::{Place, Source};
+pub use number_field::{NumberField, NumberRefused, UnknownNumber};
 pub use overrides::Override;
 pub(crate) use problem::nearest;
 pub use problem::{FieldPath, InputError, InputErrors, Problem, Segment};

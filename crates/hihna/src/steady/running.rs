@@ -18,24 +18,46 @@
 //! the whole belt, and that fixes c. Bordered with column c and the phase the matrix is regular, cyclic
 //! block-tridiagonal, and not symmetric.
 
+/// Runs `$body` with `$element` the type of the drive's belt elements.
+macro_rules! with_belt_element {
+    ($drive:expr, $element:ident => $body:expr) => {
+        match $drive.belt.element {
+            $crate::drive::BeltElement::BeltBeam => {
+                type $element = ancf::element::BeltBeam2;
+                $body
+            }
+            $crate::drive::BeltElement::CubicBeam => {
+                type $element = ancf::element::CubicBeam2;
+                $body
+            }
+            $crate::drive::BeltElement::LinearBeam => {
+                type $element = ancf::element::LinearBeam2;
+                $body
+            }
+        }
+    };
+}
+
 mod contact;
 mod continuation;
 mod equations;
 mod inertia;
 mod line;
+pub mod map;
 mod mesh;
 mod newton;
 mod prepare;
+pub mod sensitivity;
 mod split;
 pub mod summary;
 
 use ancf::dynamics::Motion;
-use ancf::element::{BeltBeam2, CubicBeam2, LinearBeam2};
 use thiserror::Error;
 
 use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, Warning};
-use crate::drive::{BeltElement, Drive};
+use crate::drive::Drive;
 use crate::friction::Law;
+use crate::input::NumberRefused;
 use crate::layout::Layout;
 use crate::observe::{Observer, Powers, ProfileRow, PulleyState, SpanState};
 use crate::simulate::{RunError, StartState};
@@ -47,7 +69,7 @@ use newton::Newton;
 
 /// Relative power residual beyond which a solution deserves a warning.
 pub const POWER_TOLERANCE: f64 = 1.0e-3;
-/// A drive that turns hardly any power over is judged by this part of the power that its tension at rest would
+/// A drive that turns hardly any power over is judged by this part of the power that its tension on the rigid path would
 /// carry.
 const LEAST_POWER: f64 = 0.01;
 
@@ -63,6 +85,9 @@ pub enum RunningError {
     /// The belt does not settle on its pulleys.
     #[error(transparent)]
     Start(#[from] RunError),
+    /// A field cannot have this value.
+    #[error("{0}")]
+    Field(String),
     /// Not even the drive without its torques was found to run.
     #[error(
         "no steady running was found, not even without torques: at {speed:.4} m/s the belt needs {centrifugal:.4} N to stay on the pulleys and has {tension:.4} N at rest (last correction {correction:.1e} m)"
@@ -77,6 +102,12 @@ pub enum RunningError {
         /// Last correction of the iteration [m].
         correction: f64,
     },
+}
+
+impl RunningError {
+    fn refused(error: NumberRefused) -> Self {
+        Self::Field(error.to_string())
+    }
 }
 
 /// What a drive does in the end.
@@ -205,16 +236,9 @@ impl<E: BeltElementType> RunningBelt<E> {
         self.guess.len()
     }
 
-    /// What the drive does, from the state of a neighbour if one is given.
-    pub fn solve(&mut self, near: Option<&[f64]>) -> Result<Answer, RunningError> {
+    /// What the drive does.
+    pub fn solve(&mut self) -> Result<Answer, RunningError> {
         self.newton.factorizations = 0;
-        let near = near.filter(|state| state.len() == self.guess.len());
-        if let Some(near) = near {
-            let mut z = near.to_vec();
-            if let Ok(found) = self.newton(&mut z) {
-                return Ok(self.answer(z, found.iterations, Found::Directly));
-            }
-        }
         let mut z = self.guess.clone();
         let failure = match self.newton(&mut z) {
             Ok(found) => return Ok(self.answer(z, found.iterations, Found::Directly)),
@@ -238,13 +262,33 @@ impl<E: BeltElementType> RunningBelt<E> {
                 None => {}
             }
         }
+        Err(self.not_found(failure.correction))
+    }
+
+    /// The answer found by Newton's method from `z`, the state of a neighbour, if it finds one.
+    fn from_neighbour(&mut self, z: &[f64]) -> Option<Answer> {
+        self.newton.factorizations = 0;
+        let mut z = z.to_vec();
+        let (chain, load) = (self.equations.chain(), self.equations.load());
+        z[load] = 1.0;
+        // Another speed: all speeds in proportion.
+        let driven = (self.equations.prescribed.iter().enumerate())
+            .find_map(|(p, speed)| speed.map(|speed| speed / z[chain + p]));
+        for value in &mut z[chain..load] {
+            *value *= driven.unwrap_or(1.0);
+        }
+        let found = self.newton(&mut z).ok()?;
+        Some(self.answer(z, found.iterations, Found::Directly))
+    }
+
+    fn not_found(&self, correction: f64) -> RunningError {
         let speed = self.guess[self.equations.circulation()].abs();
-        Err(RunningError::NotFound {
+        RunningError::NotFound {
             speed,
             centrifugal: self.line_density * speed * speed,
             tension: self.start.tension,
-            correction: failure.correction,
-        })
+            correction,
+        }
     }
 
     /// The most that the drive carries, from the state in which it runs; nothing where no torque acts.
@@ -298,7 +342,7 @@ impl<E: BeltElementType> RunningBelt<E> {
         let put_in: f64 = (states.iter())
             .map(|p| (p.external_torque * p.speed).max(0.0))
             .sum();
-        let idle = LEAST_POWER * self.start.tension * circulation.abs();
+        let idle = LEAST_POWER * self.assembly.mounting.tension * circulation.abs();
         let left = powers.input + powers.load - powers.friction - powers.contact;
         Running {
             circulation,
@@ -313,26 +357,6 @@ impl<E: BeltElementType> RunningBelt<E> {
             state: Vec::new(),
         }
     }
-}
-
-/// Runs `$body` with `$element` the type of the drive's belt elements.
-macro_rules! with_belt_element {
-    ($drive:expr, $element:ident => $body:expr) => {
-        match $drive.belt.element {
-            BeltElement::BeltBeam => {
-                type $element = BeltBeam2;
-                $body
-            }
-            BeltElement::CubicBeam => {
-                type $element = CubicBeam2;
-                $body
-            }
-            BeltElement::LinearBeam => {
-                type $element = LinearBeam2;
-                $body
-            }
-        }
-    };
 }
 
 /// What was found of a drive, with the model that it was found on.
@@ -358,7 +382,7 @@ pub struct Outcome {
 pub fn solve(drive: &Drive) -> Result<Outcome, RunningError> {
     with_belt_element!(drive, Element => {
         let mut belt = RunningBelt::<Element>::new(drive)?;
-        let answer = belt.solve(None)?;
+        let answer = belt.solve()?;
         let capacity = match &answer {
             Answer::Running(running) => belt.capacity(running),
             _ => None,

@@ -129,12 +129,13 @@ impl Passage<'_> {
         PointContact::new(self.penalty, self.pulley, &meeting)
     }
 
-    /// Penetration of the point at `xi` [m].
+    /// Penetration of the point at `xi` [m], to the last bit that of [`Passage::contact`]: its sign decides there, too.
     #[inline]
     pub fn penetration(&self, xi: f64) -> f64 {
         let [x, y] = self.line.position(xi);
         let [cx, cy] = self.pulley.center;
-        self.pulley.radius - (x - cx).hypot(y - cy)
+        let arm = [x - cx, y - cy];
+        -(arm[0] * arm[0] + arm[1] * arm[1]).sqrt() + self.pulley.radius
     }
 
     /// Its rise with `xi`, but for a positive factor.

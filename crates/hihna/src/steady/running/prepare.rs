@@ -45,45 +45,80 @@ impl<E: BeltElementType> RunningBelt<E> {
 
     /// The same with elements that begin at the parts `starts` of the belt, rising from 0.
     pub fn on_mesh(drive: &Drive, starts: &[f64]) -> Result<Self, RunningError> {
+        let mut belt = Self::unsettled(drive, starts)?;
+        belt.settle(drive)?;
+        Ok(belt)
+    }
+
+    /// The belt on its path, without a guess.
+    pub(super) fn unsettled(drive: &Drive, starts: &[f64]) -> Result<Self, RunningError> {
         let prescribed = prescribed_speeds(drive)?;
         let mut assembly = Assembly::<E>::graded(drive, starts)?;
-        let settled = settle_on_pulleys(drive, &mut assembly, REST, &mut |_| Flow::Continue)?;
         assembly
             .warnings
             .extend(coarse_mesh(drive, &assembly.mounting));
+        let frictionless = assembly.system.law.pulleys.iter().map(|p| p.friction);
+        let frictionless: Vec<_> = frictionless.collect();
         assembly.release(drive);
         for (contact, pulley) in assembly.system.law.pulleys.iter_mut().zip(&drive.pulley) {
             contact.external = final_torque(pulley);
         }
-        let laws = assembly
-            .system
-            .law
-            .pulleys
-            .iter()
+        let laws = (assembly.system.law.pulleys.iter())
             .map(|p| p.friction)
             .collect();
         let equations = equations(drive, &assembly, prescribed);
+        assembly.system.law.set_friction(frictionless);
         let newton = Newton::new(equations.structure());
         let names: Vec<String> = drive.pulley.iter().map(|p| p.name.clone()).collect();
         let inertias: Vec<f64> = drive.pulley.iter().map(|p| p.inertia).collect();
         let observer = Observer::new(&assembly.system, names.clone(), &inertias);
-        let mut belt = Self {
+        Ok(Self {
             start: StartState {
                 tension: 0.0,
                 penetration: 0.0,
-                iterations: settled.iterations,
+                iterations: 0,
             },
             starts: starts.to_vec(),
-            guess: Vec::new(),
+            guess: vec![0.0; equations.structure().size()],
+            line_density: drive.belt.density * drive.belt.width * drive.belt.thickness,
             names,
             observer,
             assembly,
             laws,
-            line_density: drive.belt.density * drive.belt.width * drive.belt.thickness,
             equations,
             newton,
-        };
+        })
+    }
+
+    /// Lets the belt settle without friction and makes the guess.
+    pub(super) fn settle(&mut self, drive: &Drive) -> Result<(), RunningError> {
+        let assembly = &mut self.assembly;
+        let torques: Vec<_> = (assembly.system.law.pulleys.iter_mut())
+            .map(|p| std::mem::replace(&mut p.external, Profile::Constant(0.0).into()))
+            .collect();
+        let settled = settle_on_pulleys(drive, assembly, REST, &mut |_| Flow::Continue);
+        for (pulley, torque) in assembly.system.law.pulleys.iter_mut().zip(torques) {
+            pulley.external = torque;
+        }
+        self.start.iterations = settled?.iterations;
+        self.equations.phase = phase(&self.equations.mesh, &self.assembly.motion.q);
+        self.guess_no_slip();
+        Ok(())
+    }
+
+    /// The belt of `drive` in the place of `other`, which runs in the state `z`: that makes the guess.
+    pub(super) fn beside(drive: &Drive, other: &Self, z: &[f64]) -> Result<Self, RunningError> {
+        let starts = mesh::starts(drive, &Layout::of(drive).map_err(AssemblyError::from)?);
+        let mut belt = Self::unsettled(drive, &starts)?;
+        if belt.guess.len() != z.len() {
+            belt.settle(drive)?;
+            return Ok(belt);
+        }
+        let chain = belt.equations.chain();
+        belt.assembly.motion.q[..chain].copy_from_slice(&z[..chain]);
+        belt.equations.phase = phase(&belt.equations.mesh, &z[..chain]);
         belt.guess_no_slip();
+        belt.start = other.start;
         Ok(belt)
     }
 
@@ -186,20 +221,23 @@ fn equations<E: BeltElementType>(
     };
     let pulleys: Vec<ContactPulley> = assembly.system.law.pulleys.clone();
     let contact = SteadyContact::new(pulleys, penalty, Rule::gauss(points), E::DOF);
-    let q = &assembly.motion.q;
-    // The belt has crept along itself while it settled: the phase is where the node lies now.
+    let phase = phase(&mesh, &assembly.motion.q);
+    let constant = gravity(drive, assembly, mesh.dof());
+    let scales = scales(drive, &mesh, prescribed.len() + 2);
+    Equations::new(mesh, contact, constant, prescribed, phase, scales)
+}
+
+/// The first node, held where it lies: once the belt has settled, as it creeps along itself while it does.
+fn phase<E: LineElement>(mesh: &Mesh<E>, q: &[f64]) -> Phase {
     let mut e = [0.0; MOST_DOF];
     mesh.gather(0, q, &mut e[..E::DOF]);
     let slope = ContactLine::new(&mesh.elements()[0], &e, 0.0).slope(0.0);
     let length = slope[0].hypot(slope[1]);
-    let phase = Phase {
+    Phase {
         at: 0,
         position: [q[0], q[1]],
         tangent: slope.map(|s| s / length),
-    };
-    let constant = gravity(drive, assembly, mesh.dof());
-    let scales = scales(drive, &mesh, prescribed.len() + 2);
-    Equations::new(mesh, contact, constant, prescribed, phase, scales)
+    }
 }
 
 fn gravity<E: BeltElementType>(drive: &Drive, assembly: &Assembly<E>, chain: usize) -> Vec<f64> {

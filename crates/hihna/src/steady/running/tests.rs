@@ -17,7 +17,7 @@ fn belt(changes: &[&str]) -> RunningBelt<BeltBeam2> {
 }
 
 fn solved(belt: &mut RunningBelt<BeltBeam2>) -> Vec<f64> {
-    match belt.solve(None).unwrap() {
+    match belt.solve().unwrap() {
         Answer::Running(running) => running.state,
         other => panic!("{other:?}"),
     }
@@ -98,5 +98,25 @@ fn tangent() {
         assert!(z[chain + 1] > 0.0);
         let error = tangent_error(&mut belt, &z, 1.0e-9);
         assert!(error < 1.0e-7, "{changes:?}, slip given: {error:.1e}");
+    }
+}
+
+/// The same at 120 rad/s, where the belt pulls on the pulleys before it leaves them.
+#[test]
+fn tangent_at_high_speed() {
+    let text = include_str!("../../../../../examples/figures_3_10_to_3_20.toml");
+    for changes in [
+        ["belt.elements=40", "contact.friction.slope=1e4"],
+        ["belt.elements=40", "contact.friction.slope=1e5"],
+    ] {
+        let overrides: Vec<_> = changes
+            .iter()
+            .map(|change| change.parse().unwrap())
+            .collect();
+        let drive = crate::input::parse("drive.toml", text, &overrides).unwrap();
+        let mut belt: RunningBelt<BeltBeam2> = RunningBelt::new(&drive).unwrap();
+        let z = solved(&mut belt);
+        let error = tangent_error(&mut belt, &z, 1.0e-9);
+        assert!(error < 1.0e-7, "{changes:?}: {error:.1e}");
     }
 }
