@@ -15,6 +15,8 @@ use crate::drive_source::DriveSource;
 use crate::standard_output;
 
 mod elements;
+mod map;
+mod modes;
 mod sensitivity;
 mod summary;
 mod words;
@@ -47,6 +49,15 @@ pub struct Arguments {
     /// `belt.length,pulley.driven.radius`
     #[arg(long, value_name = "KEY", value_delimiter = ',')]
     sensitivity: Vec<String>,
+
+    /// With `--model fe`: print the first K modes of spans and drive about the running state
+    #[arg(long, value_name = "K", default_value_t = 0, hide_default_value = true, value_parser = clap::value_parser!(u16).range(..=100), conflicts_with = "map")]
+    modes: u16,
+
+    /// With `--model fe`: solve the drive at every combination of values of two or more fields, such as
+    /// `pulley.driven.torque=-1:-20:20`. May be given several times
+    #[arg(long, value_name = "KEY=FROM:TO:COUNT", conflicts_with = "sensitivity")]
+    map: Vec<String>,
 
     /// Folder for drive.toml, summary.json and, of a drive that runs, profile.csv [default: no files]
     #[arg(long, value_name = "DIR")]
@@ -88,12 +99,22 @@ enum ClosureName {
 /// Solves, records and tells.
 pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
     let Some(model) = arguments.model.string() else {
-        return elements::steady(arguments);
+        return if arguments.map.is_empty() {
+            elements::steady(arguments)
+        } else {
+            map::steady(arguments)
+        };
     };
     let closure = match arguments.closure {
         ClosureName::Length => Closure::UnstretchedLength,
         ClosureName::TensionSum => Closure::TensionSum,
     };
+    if !arguments.map.is_empty() || arguments.modes > 0 {
+        return Err(Failure::Argument {
+            message: "`--map` and `--modes` are there for the finite elements only".into(),
+            help: "add `--model fe`".into(),
+        });
+    }
     let file = arguments.source.open()?;
     let drive = &file.drive;
     let wrong = |error: SteadyError| failure(&error, &file);

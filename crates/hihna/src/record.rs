@@ -109,6 +109,11 @@ impl Folder {
         fs::write(self.files.path().join(name), text).map_err(|cause| self.refused(cause))
     }
 
+    /// Adds a file of bytes.
+    pub fn bytes(&self, name: &'static str, bytes: &[u8]) -> Result<(), RecordError> {
+        fs::write(self.files.path().join(name), bytes).map_err(|cause| self.refused(cause))
+    }
+
     /// Adds a JSON file.
     pub fn json(&self, name: &'static str, value: &impl Serialize) -> Result<(), RecordError> {
         let text = serde_json::to_string_pretty(value).map_err(|cause| RecordError::Encode {
@@ -191,7 +196,14 @@ fn check_free(place: &Path, overwrite: bool) -> Result<(), RecordError> {
 }
 
 /// Files that a result folder may hold.
-const FILES: [&str; 4] = ["drive.toml", "summary.json", "history.csv", "profile.csv"];
+const FILES: [&str; 6] = [
+    "drive.toml",
+    "summary.json",
+    "history.csv",
+    "profile.csv",
+    "map.csv",
+    "map.parquet",
+];
 
 /// Whether `place` is a folder (no link to one) with nothing in it but results.
 fn is_result_folder(place: &Path) -> bool {

@@ -3,14 +3,16 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use hihna::drive::SteadyMesh;
-use hihna::input::{self, DriveFile, InputErrors};
+use hihna::drive::{Drive, SteadyMesh};
+use hihna::input::{self, DriveFile, InputErrors, NumberField, UnknownNumber};
 use hihna::record::{Folder, RecordError};
 use hihna::steady::running::summary::{RunningSummary, Steady};
 use hihna::steady::running::{self, Answer, Outcome, RunningError};
 use serde::Serialize;
 
 use super::Arguments;
+use super::modes::{self, ModeSummary};
+use super::sensitivity::{self, SensitivitySummary};
 use crate::diagnostics::{Failure, print_warning};
 use crate::quantities::{degrees, percent, plain, with_prefix};
 use crate::standard_output;
@@ -26,6 +28,12 @@ struct Told<'a> {
     folder: Option<String>,
     #[serde(flatten)]
     summary: &'a RunningSummary,
+    /// By the fields of `--sensitivity`; left out without it and for a drive that does not run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensitivity: Option<&'a SensitivitySummary>,
+    /// By rising frequency; left out without `--modes` and for a drive that does not run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    modes: Option<&'a [ModeSummary]>,
 }
 
 /// Solves, records and tells.
@@ -37,10 +45,22 @@ pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
         .map(|place| Folder::new(place, arguments.force))
         .transpose()
         .map_err(Failure::Folder)?;
-    let outcome = running::solve(&file.drive).map_err(|error| failure(error, &file))?;
+    let fields = find_fields(&file.drive, &arguments.sensitivity)?;
+    let study = running::study(&file.drive, &fields, arguments.modes.into())
+        .map_err(|error| failure(error, &file))?;
+    let outcome = study.outcome;
+    let sensitivity = study.sensitivity.map(|found| sensitivity::by_field(&found));
+    let names: Vec<_> = file.drive.pulley.iter().map(|p| p.name.as_str()).collect();
+    let modes = study.modes.map(|found| modes::summary(&found, &names));
     let summary = RunningSummary::new(&file.drive, &outcome);
     if let Some(folder) = folder {
-        write(folder, &file, &outcome, &summary).map_err(Failure::Record)?;
+        let told = Told {
+            folder: None,
+            summary: &summary,
+            sensitivity: sensitivity.as_ref(),
+            modes: modes.as_deref(),
+        };
+        write(folder, &file, &outcome, &told).map_err(Failure::Record)?;
     }
     let folder = arguments
         .out
@@ -50,9 +70,20 @@ pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
         standard_output::print_json(&Told {
             folder,
             summary: &summary,
+            sensitivity: sensitivity.as_ref(),
+            modes: modes.as_deref(),
         })?;
     } else {
-        standard_output::print(&in_words(&summary, folder.as_deref()))?;
+        let mut text = in_words(&summary, folder.as_deref());
+        if let Some(fields) = &sensitivity {
+            text.push('\n');
+            text.push_str(&sensitivity::in_words(fields));
+        }
+        if let Some(modes) = &modes {
+            text.push('\n');
+            text.push_str(&modes::in_words(modes));
+        }
+        standard_output::print(&text)?;
     }
     for warning in &summary.warnings {
         print_warning(warning);
@@ -64,7 +95,7 @@ fn write(
     folder: Folder,
     file: &DriveFile,
     outcome: &Outcome,
-    summary: &RunningSummary,
+    summary: &Told<'_>,
 ) -> Result<(), RecordError> {
     folder.text("drive.toml", &input::to_toml(&file.drive))?;
     folder.json("summary.json", summary)?;
@@ -72,6 +103,24 @@ fn write(
         folder.rows("profile.csv", &running.profile)?;
     }
     folder.finish()
+}
+
+/// The fields of these keys.
+pub(super) fn find_fields(drive: &Drive, keys: &[String]) -> Result<Vec<NumberField>, Failure> {
+    let find = |key: &String| NumberField::find(drive, key).map_err(|error| unknown(&error));
+    keys.iter().map(find).collect()
+}
+
+/// A key that is no number of the drive, as an argument that is wrong.
+pub(super) fn unknown(error: &UnknownNumber) -> Failure {
+    let near = error
+        .nearest
+        .as_ref()
+        .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+    Failure::Argument {
+        message: error.to_string(),
+        help: format!("{near}name a field as in `--set`, such as `pulley.driven.torque`"),
+    }
 }
 
 /// What is wrong with the drive, at its field in the file where one is to blame.

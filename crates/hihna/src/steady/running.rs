@@ -45,6 +45,7 @@ mod inertia;
 mod line;
 pub mod map;
 mod mesh;
+pub mod modes;
 mod newton;
 mod prepare;
 pub mod sensitivity;
@@ -57,14 +58,15 @@ use thiserror::Error;
 use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, Warning};
 use crate::drive::Drive;
 use crate::friction::Law;
-use crate::input::NumberRefused;
+use crate::input::{NumberField, NumberRefused};
 use crate::layout::Layout;
 use crate::observe::{Observer, Powers, ProfileRow, PulleyState, SpanState};
 use crate::simulate::{RunError, StartState};
-use crate::steady::drive_string::SteadyError;
+use crate::steady::drive_string::{DriveSensitivity, SteadyError};
 
 use continuation::Way;
 use equations::Equations;
+use modes::{Mode, NoModes};
 use newton::Newton;
 
 /// Relative power residual beyond which a solution deserves a warning.
@@ -85,6 +87,9 @@ pub enum RunningError {
     /// The belt does not settle on its pulleys.
     #[error(transparent)]
     Start(#[from] RunError),
+    /// The modes were not found.
+    #[error(transparent)]
+    Modes(#[from] NoModes),
     /// A field cannot have this value.
     #[error("{0}")]
     Field(String),
@@ -105,7 +110,7 @@ pub enum RunningError {
 }
 
 impl RunningError {
-    fn refused(error: NumberRefused) -> Self {
+    fn refused(error: &NumberRefused) -> Self {
         Self::Field(error.to_string())
     }
 }
@@ -208,6 +213,8 @@ pub struct RunningBelt<E> {
     assembly: Assembly<E>,
     observer: Observer,
     laws: Vec<Law>,
+    /// Of the pulleys [kg m²].
+    inertias: Vec<f64>,
     /// Mass per unstretched length [kg/m].
     line_density: f64,
     equations: Equations<E>,
@@ -266,7 +273,7 @@ impl<E: BeltElementType> RunningBelt<E> {
     }
 
     /// The answer found by Newton's method from `z`, the state of a neighbour, if it finds one.
-    fn from_neighbour(&mut self, z: &[f64]) -> Option<Answer> {
+    fn solve_near(&mut self, z: &[f64]) -> Option<Answer> {
         self.newton.factorizations = 0;
         let mut z = z.to_vec();
         let (chain, load) = (self.equations.chain(), self.equations.load());
@@ -380,6 +387,22 @@ pub struct Outcome {
 
 /// Finds what `drive` settles to and how much it carries.
 pub fn solve(drive: &Drive) -> Result<Outcome, RunningError> {
+    study(drive, &[], 0).map(|study| study.outcome)
+}
+
+/// What was found of a drive, and what surrounds it.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// The running drive.
+    pub outcome: Outcome,
+    /// Derivatives of the results, if fields were given and the drive runs.
+    pub sensitivity: Option<DriveSensitivity>,
+    /// Modes about the running state, if asked for and the drive runs.
+    pub modes: Option<Vec<Mode>>,
+}
+
+/// [`solve`], with the derivatives of the results by `fields` and `modes` modes if the drive runs.
+pub fn study(drive: &Drive, fields: &[NumberField], modes: usize) -> Result<Study, RunningError> {
     with_belt_element!(drive, Element => {
         let mut belt = RunningBelt::<Element>::new(drive)?;
         let answer = belt.solve()?;
@@ -387,7 +410,17 @@ pub fn solve(drive: &Drive) -> Result<Outcome, RunningError> {
             Answer::Running(running) => belt.capacity(running),
             _ => None,
         };
-        Ok(Outcome {
+        let sensitivity = match &answer {
+            Answer::Running(running) if !fields.is_empty() => {
+                Some(belt.sensitivity(drive, running, fields)?)
+            }
+            _ => None,
+        };
+        let modes = match &answer {
+            Answer::Running(running) if modes > 0 => Some(belt.modes(running, modes)?),
+            _ => None,
+        };
+        let outcome = Outcome {
             answer,
             capacity,
             layout: belt.layout().clone(),
@@ -395,6 +428,11 @@ pub fn solve(drive: &Drive) -> Result<Outcome, RunningError> {
             start: belt.start,
             dofs: belt.dofs(),
             warnings: belt.warnings().to_vec(),
+        };
+        Ok(Study {
+            outcome,
+            sensitivity,
+            modes,
         })
     })
 }

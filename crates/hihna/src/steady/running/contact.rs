@@ -30,6 +30,15 @@ pub(super) struct SteadyContact {
     matrix: ElementMatrix,
 }
 
+/// What the contact forces are differentiated by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum By {
+    /// The unknowns of steady running.
+    Unknowns,
+    /// Rates of the coordinates on top of it: small motions.
+    Rates,
+}
+
 /// Motion of belt and pulleys: coordinates of the chain, circulation speed, speeds of the pulleys.
 #[derive(Clone, Copy)]
 pub(super) struct Motion<'a> {
@@ -93,12 +102,13 @@ impl SteadyContact {
         self.pieces = found;
     }
 
-    /// Adds minus the derivatives of [`SteadyContact::add_force`] to `matrix`: border unknown `p` is
-    /// the speed of pulley `p`, its row the torque on it, border unknown `circulation` the column of c.
+    /// Adds minus the derivatives of [`SteadyContact::add_force`] `by` the unknowns or by their rates to `matrix`: border
+    /// unknown `p` is the speed of pulley `p`, its row the torque on it, border unknown `circulation` the column of c.
     pub fn add_tangent<E: LineElement>(
         &mut self,
         mesh: &Mesh<E>,
         motion: Motion<'_>,
+        by: By,
         circulation: usize,
         matrix: &mut BorderedMatrix,
     ) {
@@ -127,26 +137,35 @@ impl SteadyContact {
                         let weight = weight * line.length;
                         add_point::<E>(
                             &passage,
-                            xi,
-                            weight,
+                            by,
+                            (xi, weight),
                             &weights,
                             &mut local,
                             &mut pulley_border,
                         );
                     }
                     let ends = [(piece.begins, piece.from), (piece.ends, piece.to)];
-                    for (_, xi) in ends.into_iter().filter(|(moves, _)| *moves) {
+                    for (_, xi) in ends
+                        .into_iter()
+                        .filter(|(moves, _)| *moves && by == By::Unknowns)
+                    {
                         let weights = Weights::new(element, xi, pulley.height);
                         add_moving_end::<E>(&passage, xi, &weights, &mut local, &mut pulley_border);
                     }
                 }
                 let first = index * E::NODE_DOF;
-                matrix.add_border_column(p, first, &pulley_border.column[..E::DOF]);
                 matrix.add_border_row(p, first, &pulley_border.row[..E::DOF]);
+                if by == By::Rates {
+                    continue;
+                }
+                matrix.add_border_column(p, first, &pulley_border.column[..E::DOF]);
                 matrix.add_corner(p, p, pulley_border.by_speed);
                 matrix.add_corner(p, circulation, pulley_border.by_circulation);
             }
             if touched {
+                if by == By::Rates {
+                    local.by_circulation.fill(0.0);
+                }
                 local.scatter(index, E::NODE_DOF, circulation, matrix);
             }
         }
@@ -272,8 +291,8 @@ struct PulleyBorder {
 
 fn add_point<E: LineElement>(
     passage: &Passage<'_>,
-    xi: f64,
-    weight: f64,
+    by: By,
+    (xi, weight): (f64, f64),
     weights: &Weights,
     local: &mut ElementMatrix,
     border: &mut PulleyBorder,
@@ -288,7 +307,10 @@ fn add_point<E: LineElement>(
     // By the coordinates of each vector: force and torque.
     let mut force = [[0.0; 4]; MOST_VECTORS];
     for b in 0..vectors {
-        let (n, s) = (weights.value[b], c * weights.slope[b]);
+        let (n, s) = match by {
+            By::Unknowns => (weights.value[b], c * weights.slope[b]),
+            By::Rates => (0.0, weights.value[b]),
+        };
         for k in 0..4 {
             force[b][k] = by_r.force[k] * n + by_v.force[k] * s;
         }

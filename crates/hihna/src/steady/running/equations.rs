@@ -4,7 +4,7 @@ use ancf::element::LineElement;
 use ancf::linear::{BorderedMatrix, Structure};
 use ancf::mesh::Mesh;
 
-use super::contact::{Motion, SteadyContact};
+use super::contact::{By, Motion, SteadyContact};
 use super::inertia::ConvectiveInertia;
 
 /// What holds the belt from sliding along itself through the mesh.
@@ -159,7 +159,7 @@ impl<E: LineElement> Equations<E> {
             .add_product(&self.mesh, -2.0 * c, motion.chain, &mut by_circulation);
         matrix.add_border_column(pulleys, 0, &by_circulation);
         self.contact
-            .add_tangent(&self.mesh, motion, pulleys, matrix);
+            .add_tangent(&self.mesh, motion, By::Unknowns, pulleys, matrix);
         for p in 0..pulleys {
             let row = self.chain() + p;
             if self.prescribed[p].is_some() {

@@ -18,7 +18,7 @@ use ancf::quadrature::Rule;
 
 use super::line::{MOST_DOF, MOST_VECTORS};
 
-/// Squares of the derivatives of a cubic are of degree four.
+/// Squares of the derivatives of a cubic are of degree four, its products with them of degree five.
 const POINTS: NonZeroUsize = match NonZeroUsize::new(3) {
     Some(points) => points,
     None => NonZeroUsize::MIN,
@@ -30,15 +30,19 @@ pub(super) struct ConvectiveInertia {
     vectors: usize,
     /// Row-major `MOST_VECTORS` a row.
     matrices: Vec<[f64; MOST_VECTORS * MOST_VECTORS]>,
+    /// The gyroscopic `int rho A (N N'^T - N' N^T) + ... dxi`, likewise: it turns rates into forces of small motions.
+    gyroscopic: Vec<[f64; MOST_VECTORS * MOST_VECTORS]>,
 }
 
 impl ConvectiveInertia {
     pub fn new<E: LineElement>(mesh: &Mesh<E>) -> Self {
         let rule = Rule::gauss(POINTS);
-        let matrix = |element: &E| of_element(element, &rule);
+        let elements = mesh.elements().iter();
+        let (matrices, gyroscopic) = elements.map(|element| of_element(element, &rule)).unzip();
         Self {
             vectors: E::NODES * E::NODE_VECTORS,
-            matrices: mesh.elements().iter().map(matrix).collect(),
+            matrices,
+            gyroscopic,
         }
     }
 
@@ -68,9 +72,23 @@ impl ConvectiveInertia {
 
     /// Adds `factor` times itself to `matrix`.
     pub fn add_to(&self, factor: f64, matrix: &mut BorderedMatrix) {
+        self.add(&self.matrices, factor, matrix);
+    }
+
+    /// Adds `factor` times the gyroscopic matrix to `matrix`.
+    pub fn add_gyroscopic(&self, factor: f64, matrix: &mut BorderedMatrix) {
+        self.add(&self.gyroscopic, factor, matrix);
+    }
+
+    fn add(
+        &self,
+        matrices: &[[f64; MOST_VECTORS * MOST_VECTORS]],
+        factor: f64,
+        matrix: &mut BorderedMatrix,
+    ) {
         let dof = 2 * self.vectors;
         let mut local = [0.0; MOST_DOF * MOST_DOF];
-        for (element, values) in self.matrices.iter().enumerate() {
+        for (element, values) in matrices.iter().enumerate() {
             for a in 0..self.vectors {
                 for b in 0..self.vectors {
                     for axis in 0..2 {
@@ -83,7 +101,14 @@ impl ConvectiveInertia {
     }
 }
 
-fn of_element<E: LineElement>(element: &E, rule: &Rule) -> [f64; MOST_VECTORS * MOST_VECTORS] {
+/// The matrix of one element and its gyroscopic one.
+fn of_element<E: LineElement>(
+    element: &E,
+    rule: &Rule,
+) -> (
+    [f64; MOST_VECTORS * MOST_VECTORS],
+    [f64; MOST_VECTORS * MOST_VECTORS],
+) {
     let vectors = E::NODES * E::NODE_VECTORS;
     let mut mass = [0.0; MOST_VECTORS * MOST_VECTORS];
     element.vector_mass(&mut mass[..vectors * vectors]);
@@ -99,12 +124,17 @@ fn of_element<E: LineElement>(element: &E, rule: &Rule) -> [f64; MOST_VECTORS * 
     let whole = |a, b| (between(a, a) + 2.0 * between(a, b) + between(b, b)) / length;
     let (line, rotary) = (whole(r0, r1), whole(first, second));
     let mut out = [0.0; MOST_VECTORS * MOST_VECTORS];
+    let mut turning = [0.0; MOST_VECTORS * MOST_VECTORS];
+    let mut value = [0.0; MOST_VECTORS];
     let mut slope = [0.0; MOST_VECTORS];
     for (xi, weight) in rule.points.iter().zip(&rule.weights) {
+        element.centre_line(*xi, &mut value[..vectors]);
         element.centre_line_slope(*xi, &mut slope[..vectors]);
         for a in 0..vectors {
             for b in 0..vectors {
-                out[a * MOST_VECTORS + b] += weight * length * line * slope[a] * slope[b];
+                let mass = weight * length * line;
+                out[a * MOST_VECTORS + b] += mass * slope[a] * slope[b];
+                turning[a * MOST_VECTORS + b] += mass * (value[a] * slope[b] - slope[a] * value[b]);
             }
         }
     }
@@ -117,5 +147,8 @@ fn of_element<E: LineElement>(element: &E, rule: &Rule) -> [f64; MOST_VECTORS * 
     ] {
         out[a * MOST_VECTORS + b] += value;
     }
-    out
+    // int H H'^T - H' H^T of linear functions is 1 off the diagonal, whatever the length.
+    turning[first * MOST_VECTORS + second] += rotary;
+    turning[second * MOST_VECTORS + first] -= rotary;
+    (out, turning)
 }

@@ -61,7 +61,7 @@ fn of_elements<E: BeltElementType>(drive: &Drive, axes: &[Axis]) -> Map {
         .product();
     let length = axes.get(along).map_or(1, |axis| axis.values.len());
     let lines: Vec<Vec<usize>> = (0..points)
-        .filter(|point| (point / stride) % length == 0)
+        .filter(|point| (point / stride).is_multiple_of(length))
         .map(|first| (0..length).map(|k| first + k * stride).collect())
         .collect();
     let width = columns.len();
@@ -155,13 +155,14 @@ fn solve_point<E: BeltElementType>(
         (Some(capacity), _) if capacity.factor < 1.0 => Answer::GrossSlip(super::GrossSlip {
             capacity: capacity.clone(),
         }),
-        (_, Some(z)) => match belt.from_neighbour(z) {
-            Some(answer) => answer,
-            None => {
+        (_, Some(z)) => {
+            if let Some(answer) = belt.solve_near(z) {
+                answer
+            } else {
                 belt = RunningBelt::new(drive)?;
                 belt.solve()?
             }
-        },
+        }
         (_, None) => belt.solve()?,
     };
     let capacity = match &answer {

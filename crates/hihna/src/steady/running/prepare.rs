@@ -82,6 +82,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             guess: vec![0.0; equations.structure().size()],
             line_density: drive.belt.density * drive.belt.width * drive.belt.thickness,
             names,
+            inertias,
             observer,
             assembly,
             laws,

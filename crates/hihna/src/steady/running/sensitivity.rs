@@ -63,7 +63,7 @@ impl<E: BeltElementType> RunningBelt<E> {
                     .collect();
                 let changed = field
                     .with(drive, value + step)
-                    .map_err(RunningError::refused)?;
+                    .map_err(|error| RunningError::refused(&error))?;
                 let mut moved = self.neighbour(drive, field, value + step)?;
                 ends.push(moved.results(&changed, &there));
             }
@@ -87,7 +87,9 @@ impl<E: BeltElementType> RunningBelt<E> {
         field: &NumberField,
         value: f64,
     ) -> Result<Self, RunningError> {
-        let changed = field.with(drive, value).map_err(RunningError::refused)?;
+        let changed = field
+            .with(drive, value)
+            .map_err(|error| RunningError::refused(&error))?;
         let mut other = Self::unsettled(&changed, &self.starts)?;
         other.equations.phase = self.equations.phase;
         other.start = self.start;
