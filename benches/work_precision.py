@@ -17,6 +17,7 @@ import tempfile
 PROGRAM = os.path.join("target", "release", "hihna")
 SPANS = ("driver-driven.tension", "driven-driver.tension")
 CASES = [
+    ("auto, accuracy 2e-2", ["run.accuracy=2e-2"]),
     ("auto, accuracy 1e-2", ["run.accuracy=1e-2"]),
     ("auto, accuracy 1e-3 (default)", []),
     ("auto, accuracy 1e-4", ["run.accuracy=1e-4"]),

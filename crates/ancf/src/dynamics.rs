@@ -14,7 +14,7 @@ mod runge_kutta;
 mod stage;
 mod tr_bdf2;
 
-pub use control::{Control, IntegrationError, Method, Window, integrate};
+pub use control::{Control, IntegrationError, Method, Pace, Window, integrate};
 pub use generalized_alpha::GeneralizedAlpha;
 pub use runge_kutta::RungeKutta4;
 pub use stage::{NotConverged, Stage, StageBase};

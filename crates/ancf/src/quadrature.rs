@@ -25,4 +25,28 @@ impl Rule {
         let (points, weights) = pairs.into_iter().unzip();
         Self { points, weights }
     }
+
+    /// The composite trapezoidal rule of `count` equally spaced points, the ends among them; of one point, the
+    /// middle. Its weights are positive at any number of points, unlike those of the closed Newton-Cotes
+    /// rules, of which that of nine points has negative ones.
+    #[must_use]
+    pub fn trapezoidal(count: NonZeroUsize) -> Self {
+        let Some(intervals) = NonZeroUsize::new(count.get() - 1) else {
+            return Self::gauss(count);
+        };
+        let last = intervals.get();
+        let part = 1.0 / last as f64;
+        Self {
+            points: (0..=last).map(|i| i as f64 * part).collect(),
+            weights: (0..=last)
+                .map(|i| {
+                    if i == 0 || i == last {
+                        0.5 * part
+                    } else {
+                        part
+                    }
+                })
+                .collect(),
+        }
+    }
 }

@@ -7,7 +7,7 @@
 
 use std::ops::ControlFlow;
 
-use ancf::dynamics::{Control, Method, Motion, Scheme, Stage, integrate};
+use ancf::dynamics::{Control, Method, Motion, Pace, Scheme, Stage, integrate};
 use ancf::dynamics::{GeneralizedAlpha, RungeKutta4, TrBdf2};
 use ancf::element::BeltBeam2;
 use ancf::linear::BorderedMatrix;
@@ -209,6 +209,7 @@ fn integrate_hits_kinks_and_keeps_energy() {
             error_tolerance: Some(1.0e-4),
             newton_tolerance: 1.0e-9,
             kinks: kinks.clone(),
+            jumps: Vec::new(),
         };
         let mut times = Vec::new();
         let statistics = integrate(&mut system, &mut motion, FLIGHT, &control, |_, window| {
@@ -231,6 +232,36 @@ fn integrate_hits_kinks_and_keeps_energy() {
         let drift = (now / energy - 1.0).abs();
         assert!(drift < 1.0e-4, "{method:?}: energy drifts by {drift:.1e}");
     }
+}
+
+/// An observer that asks for finer steps gets six halvings, at its word `Hold` they stay, and fixed steps
+/// stay as they are.
+#[test]
+fn steps_follow_the_pace_of_the_observer() {
+    let steps = |error_tolerance, pace: fn(usize) -> Pace| {
+        let mut control = Control::fixed(Method::Auto, 1.0e-4);
+        control.error_tolerance = error_tolerance;
+        let mut lengths = Vec::new();
+        let (mut system, mut motion) = (chain(ELEMENTS, ()), thrown(ELEMENTS));
+        integrate(&mut system, &mut motion, 0.002, &control, |_, window| {
+            lengths.push(window.to.time - window.from.time);
+            ControlFlow::Continue(pace(lengths.len()))
+        })
+        .expect("the flight is smooth");
+        lengths
+    };
+    let shortest = |lengths: &[f64]| lengths.iter().copied().fold(f64::INFINITY, f64::min);
+    let loose = Some(1.0e3);
+    let finer = steps(loose, |_| Pace::Finer);
+    assert!((shortest(&finer) * 64.0 - 1.0e-4).abs() < 1.0e-12);
+    let free = steps(loose, |_| Pace::Free);
+    assert_eq!(free.len(), 20);
+    let held = steps(loose, |step| match step {
+        ..=4 => Pace::Finer,
+        _ => Pace::Hold,
+    });
+    assert_eq!(held.len(), 4 + 32);
+    assert_eq!(steps(None, |_| Pace::Finer).len(), 20);
 }
 
 /// A cantilever on an elastic clamp: springs hold position and section of node 0, a dead force pulls

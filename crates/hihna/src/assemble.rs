@@ -1,6 +1,8 @@
 //! From a drive to a mechanical system with its initial shape: the belt lies evenly stretched on the
 //! path around the pulleys, the nodes `path / n` apart.
 
+mod plates;
+
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
@@ -15,10 +17,13 @@ use ancf::system::{self, Mechanics, RigidCoordinate, System};
 use thiserror::Error;
 
 use crate::contact::{BeltContact, ContactPulley, Penalty};
-use crate::drive::{Belt, BeltElement, Drive, Harmonic, Pulley};
+use crate::drive::{Belt, BeltElement, Contact, Drive, Harmonic, Integration, Pulley};
 use crate::friction::{Frictionless, Law};
 use crate::layout::{self, Layout, LayoutError};
 use crate::profile::Profile;
+
+pub use plates::PlateAssembly;
+pub(crate) use plates::contraction;
 
 /// Stretch beyond which a belt is taken to be the wrong one.
 const LARGEST_STRETCH: f64 = 2.0;
@@ -61,6 +66,17 @@ pub enum AssemblyError {
         path: f64,
         /// Their difference [m].
         excess: f64,
+    },
+    /// A belt of plates would grow too narrow.
+    #[error(
+        "the belt is too tight: stretched {stretch:.2} times it would keep less than {part:.0} % of its width",
+        part = 100.0 * least
+    )]
+    NoWidth {
+        /// Path over length.
+        stretch: f64,
+        /// Least part of the width accepted.
+        least: f64,
     },
     /// The belt would have to stretch beyond reason.
     #[error(
@@ -166,9 +182,9 @@ fn stretch_under(load: f64) -> f64 {
 /// A drive ready to settle and run. Its pulleys have neither friction nor external torques until
 /// [`Assembly::release`].
 #[derive(Debug)]
-pub struct Assembly<E> {
+pub struct Assembly<E, L = BeltContact> {
     /// The mechanical system.
-    pub system: System<E, BeltContact>,
+    pub system: System<E, L>,
     /// The initial state: belt on the path, everything at rest.
     pub motion: Motion,
     /// The belt's path.
@@ -319,16 +335,11 @@ fn system<E: BeltElementType>(
     mesh: Mesh<E>,
 ) -> System<E, BeltContact> {
     let belt = &drive.belt;
-    let points = NonZeroUsize::new(drive.contact.points).unwrap_or(NonZeroUsize::MIN);
     let pulleys = (drive.pulley.iter().zip(&layout.arcs))
         .map(|(pulley, arc)| contact_pulley(drive, pulley, arc))
         .collect();
-    let penalty = Penalty {
-        stiffness: drive.contact.stiffness,
-        damping: drive.contact.damping,
-        clamp: drive.contact.clamp_normal_force,
-    };
-    let contact = BeltContact::new(&mesh, pulleys, penalty, Rule::gauss(points));
+    let penalty = penalty(&drive.contact);
+    let contact = BeltContact::new(&mesh, pulleys, penalty, rule(&drive.contact));
     let length = mesh.elements().first().map_or(0.0, LineElement::length);
     let scales = mesh.scales(length, belt.thickness);
     let rotors = drive.pulley.iter().map(rotor).collect();
@@ -337,6 +348,23 @@ fn system<E: BeltElementType>(
         system.add_gravity(&drive.gravity);
     }
     system
+}
+
+fn penalty(contact: &Contact) -> Penalty {
+    Penalty {
+        stiffness: contact.stiffness,
+        damping: contact.damping,
+        clamp: contact.clamp_normal_force,
+    }
+}
+
+/// The points of contact along an element.
+fn rule(contact: &Contact) -> Rule {
+    let points = NonZeroUsize::new(contact.points).unwrap_or(NonZeroUsize::MIN);
+    match contact.integration {
+        Integration::Gauss => Rule::gauss(points),
+        Integration::Trapezoidal => Rule::trapezoidal(points),
+    }
 }
 
 /// The belt evenly stretched on its path, at rest, its nodes at the parts `starts` of it.
@@ -366,6 +394,7 @@ fn on_path<E: LineElement>(
 fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &layout::Arc) -> ContactPulley {
     ContactPulley {
         center: pulley.center,
+        displacement: pulley.displacement.clone(),
         radius: pulley.radius,
         friction: Law::Frictionless(Frictionless),
         // The section's slope points to the left of the path: to the centre of a pulley that the path
@@ -466,7 +495,7 @@ pub fn closable(drive: &Drive, mounting: &Mounting) -> Result<(), AssemblyError>
 
 fn allowed_turn(drive: &Drive) -> f64 {
     match drive.belt.element {
-        BeltElement::BeltBeam | BeltElement::CubicBeam => LARGEST_TURN,
+        BeltElement::BeltBeam | BeltElement::CubicBeam | BeltElement::Plate => LARGEST_TURN,
         BeltElement::LinearBeam => LARGEST_TURN_STRAIGHT,
     }
 }

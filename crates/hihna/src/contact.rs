@@ -11,6 +11,9 @@
 //! T   = -(R - d) f_t            torque on the pulley, per undeformed length       (3.26)
 //! ```
 //!
+//! Where the centre moves, O is where it is now and r' the velocity against it; whoever moves it does the
+//! work `f.O'` per length and time.
+//!
 //! Energy per length and time: the penalty stores `k_p d²/2`; friction takes
 //! `-f_t (t.r' - omega (R - d))`, with the lever of the force; the damper takes `(f_n - k_p d) d'`.
 //!
@@ -23,6 +26,7 @@
 mod kernels;
 mod memory;
 mod point;
+pub mod surface;
 mod table;
 
 use ancf::element::LineElement;
@@ -35,6 +39,7 @@ use ancf::system::{ForceLaw, State};
 pub(crate) use point::Meeting;
 pub use point::PointContact;
 
+use crate::drive::Displacement;
 use crate::friction::Law;
 use crate::load::ExternalTorque;
 use memory::Bristles;
@@ -43,8 +48,10 @@ use table::{LANES, Line, MAX_VECTORS, Table};
 /// A pulley as the contact sees it.
 #[derive(Clone, Debug)]
 pub struct ContactPulley {
-    /// Centre O [m].
+    /// Centre O at time zero [m].
     pub center: [f64; 2],
+    /// Motion of the centre from there.
+    pub displacement: Option<Displacement>,
     /// Radius R of the surface [m].
     pub radius: f64,
     /// Friction of its surface.
@@ -56,12 +63,24 @@ pub struct ContactPulley {
     pub external: ExternalTorque,
 }
 
-/// The penalty law in the normal direction.
+impl ContactPulley {
+    /// Centre O [m] and its velocity [m/s] at `time` [s].
+    #[inline]
+    fn hub(&self, time: f64) -> [[f64; 2]; 2] {
+        let Some(displacement) = &self.displacement else {
+            return [self.center, [0.0; 2]];
+        };
+        let [[x, y, _], [vx, vy, _]] = displacement.at(time);
+        [[self.center[0] + x, self.center[1] + y], [vx, vy]]
+    }
+}
+
+/// The penalty law in the normal direction, per length of belt; per area on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty {
-    /// k_p [N/m²].
+    /// k_p [N/m²], on a surface [N/m³].
     pub stiffness: f64,
-    /// c_p [N s/m²].
+    /// c_p [N s/m²], on a surface [N s/m³].
     pub damping: f64,
     /// Whether the normal force is kept from pulling.
     pub clamp: bool,
@@ -72,11 +91,13 @@ pub struct Penalty {
 pub struct PulleyContact {
     /// Torque of the belt on the pulley [N m].
     pub torque: f64,
-    /// Force of the belt on the pulley [N].
+    /// Force of the belt on the pulley in the plane [N].
     pub hub_force: [f64; 2],
-    /// Undeformed length of belt in contact [m].
+    /// The rest of the load on the hub, of belts in space.
+    pub lateral: Lateral,
+    /// Undeformed length [m] of belt in contact, of a surface its area [m²].
     pub length: f64,
-    /// Mean slip velocity over that length [m/s].
+    /// Mean slip velocity around the pulley over that length [m/s].
     pub slip_speed: f64,
     /// Largest penetration [m].
     pub penetration: f64,
@@ -86,6 +107,17 @@ pub struct PulleyContact {
     pub contact_loss: f64,
     /// Energy stored in the penalty [J].
     pub stored_energy: f64,
+}
+
+/// What a belt in space does to a pulley out of the plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lateral {
+    /// Force of the belt on the pulley along z [N].
+    pub hub_force: f64,
+    /// Moment of the contact forces on the pulley about its centre [N m], the torque about its axis too.
+    pub hub_moment: [f64; 3],
+    /// Mean place of the belt in contact along the pulley's axis, from its middle [m].
+    pub belt_offset: f64,
 }
 
 /// One integration point of the belt: where it is and what acts on it.
@@ -292,9 +324,11 @@ impl BeltContact {
                 };
                 let contact = (0..self.pulleys.len()).find_map(|p| {
                     let (r, v) = on_line(self.line_of[p]);
+                    let [center, drift] = self.pulleys[p].hub(state.time);
                     let meeting = Meeting {
                         r,
-                        v,
+                        v: [v[0] - drift[0], v[1] - drift[1]],
+                        center,
                         speed: state.v[self.rotors() + p],
                         anchor: self.anchor(element * self.batches() + batch, lane, p, state.q),
                     };

@@ -62,6 +62,15 @@ pub enum BeltElement {
     CubicBeam,
     /// Planar linear beam with one integration point, 8 coordinates.
     LinearBeam,
+    /// Thin plate in space, 36 coordinates: a belt with a width.
+    Plate,
+}
+
+impl BeltElement {
+    /// Whether the belt moves in space; otherwise in the plane.
+    pub fn is_spatial(self) -> bool {
+        self == Self::Plate
+    }
 }
 
 /// The belt. Exactly one of `length`, `tension`, `strain` says how tight it is.
@@ -75,6 +84,17 @@ pub struct Belt {
     #[schemars(extend("minimum" = 3, "maximum" = 100_000))]
     #[serde(serialize_with = "count")]
     pub elements: usize,
+    /// Number of elements side by side across the belt: of plates.
+    #[serde(
+        default = "one_across",
+        serialize_with = "count",
+        skip_serializing_if = "is_one"
+    )]
+    #[schemars(extend("minimum" = 1, "maximum" = 100))]
+    pub elements_across: usize,
+    /// The bending stiffness of plates.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub bending: PlateBending,
     /// Unstretched length [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
@@ -124,6 +144,19 @@ pub struct Belt {
     pub first_node: f64,
 }
 
+/// Bending stiffness D of a plate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PlateBending {
+    /// Kirchhoff's `E h³ / (12 (1 - nu²))`.
+    #[default]
+    Standard,
+    /// `E h³ / 12`, as printed in Kerkkänen (2006, 4.17).
+    Printed,
+    /// None: a membrane.
+    None,
+}
+
 /// How the belt's ends are joined to a loop. Both give the same motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -139,10 +172,10 @@ pub enum Joint {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
-    /// Penalty stiffness k_p per length of belt [N/m²].
+    /// Penalty stiffness k_p per length of belt [N/m²]; of plates per area [N/m³].
     #[schemars(schema_with = "units::stiffness_per_length", extend("exclusiveMinimum" = 0.0))]
     pub stiffness: f64,
-    /// Penalty damping c_p per length of belt [N s/m²].
+    /// Penalty damping c_p per length of belt [N s/m²]; of plates per area [N s/m³].
     #[serde(default)]
     #[schemars(schema_with = "units::damping_per_length", extend("minimum" = 0.0))]
     pub damping: f64,
@@ -154,13 +187,41 @@ pub struct Contact {
     /// Which line of the belt touches the pulleys.
     #[serde(default)]
     pub surface: Surface,
-    /// Gauss points per element.
+    /// Integration points along an element; of a plate, along and across it.
     #[serde(default = "default_points", serialize_with = "count")]
     #[schemars(extend("minimum" = 1, "maximum" = 64))]
     pub points: usize,
+    /// The rule that these points belong to.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub integration: Integration,
+    /// The directions in which friction acts on the surface of a belt in space.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub friction_directions: FrictionDirections,
     /// Whether the normal force is kept from pulling (c_p d' < -k_p d near the exit).
     #[serde(default)]
     pub clamp_normal_force: bool,
+}
+
+/// Rules of integration along an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integration {
+    /// Gauss points, inside the element.
+    #[default]
+    Gauss,
+    /// Equally spaced points with the element's ends among them, trapezoidal weights.
+    Trapezoidal,
+}
+
+/// Directions of friction on the surface of a pulley.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrictionDirections {
+    /// Around the pulley only.
+    #[default]
+    Circumferential,
+    /// Against the slip velocity, along the pulley's axis too: a belt can track sideways.
+    Both,
 }
 
 /// Friction laws.
@@ -172,7 +233,7 @@ pub enum Friction {
         /// Coefficient of friction mu [-].
         #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
         coefficient: f64,
-        /// Creep slope v_s [N s/m²].
+        /// Creep slope v_s [N s/m²]; of plates [N s/m³].
         #[schemars(schema_with = "units::damping_per_length", extend("exclusiveMinimum" = 0.0))]
         slope: f64,
     },
@@ -266,6 +327,24 @@ pub struct Pulley {
     /// Radius [m].
     #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
     pub radius: f64,
+    /// Motion of the centre from `center`, where it is at time zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub displacement: Option<Displacement>,
+    /// Distance of the pulley's middle from the plane of the drive, along z [m]: of belts in space.
+    #[serde(default, skip_serializing_if = "is_default")]
+    #[schemars(schema_with = "units::length")]
+    pub offset: f64,
+    /// Tilt of the axis [rad], from z: about x, then about y. Of belts in space.
+    #[serde(default, skip_serializing_if = "is_default")]
+    #[schemars(schema_with = "units::tilt")]
+    pub tilt: [f64; 2],
+    /// Cone angle of the surface [rad]: the radius grows by its tangent along the axis. Of belts in space.
+    #[serde(default, skip_serializing_if = "is_default")]
+    #[schemars(schema_with = "units::angle", extend("minimum" = -STEEPEST, "maximum" = STEEPEST))]
+    pub taper: f64,
+    /// Crown of the surface; absent: straight. Of belts in space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub crown: Option<Crown>,
     /// Side of the belt.
     #[serde(default)]
     pub wrap: Wrap,
@@ -298,6 +377,51 @@ pub struct Pulley {
     pub irregularity: Vec<Harmonic>,
 }
 
+/// Steepest tilt or taper [rad].
+pub(crate) const STEEPEST: f64 = 0.5;
+
+/// Motion of a pulley's centre: where it is, less where it starts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Displacement {
+    /// Along x [m].
+    #[serde(default = "zero_profile")]
+    #[schemars(schema_with = "profile::length")]
+    pub x: Profile,
+    /// Along y [m].
+    #[serde(default = "zero_profile")]
+    #[schemars(schema_with = "profile::length")]
+    pub y: Profile,
+    /// Along z [m]: of belts in space.
+    #[serde(default = "zero_profile")]
+    #[schemars(schema_with = "profile::length")]
+    pub z: Profile,
+}
+
+impl Displacement {
+    /// Displacement [m] and velocity [m/s] at `time` [s]; right-hand values at kinks.
+    pub fn at(&self, time: f64) -> [[f64; 3]; 2] {
+        let axes = [&self.x, &self.y, &self.z];
+        [
+            axes.map(|axis| axis.value(time)),
+            axes.map(|axis| axis.derivative(time)),
+        ]
+    }
+}
+
+/// The crown of a pulley: its radius is `radius` in the middle and `height` less at half of `width` from it,
+/// by a parabola.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Crown {
+    /// Height over the edges [m]; negative for a hollow pulley.
+    #[schemars(schema_with = "units::length")]
+    pub height: f64,
+    /// Width of the pulley [m].
+    #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
+    pub width: f64,
+}
+
 /// A harmonic of a prescribed speed: with the mean speed `w(t)` and its angle `a(t)` the pulley turns at
 /// `w (1 + sum amplitude cos(order a + phase))`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -319,6 +443,26 @@ impl Pulley {
     /// Whether the pulley's motion is prescribed.
     pub fn is_driver(&self) -> bool {
         self.speed.is_some() || self.angle.is_some()
+    }
+
+    /// Unit vector of its axis: z turned by the tilt about x, then about y.
+    pub fn axis(&self) -> [f64; 3] {
+        let [(sx, cx), (sy, cy)] = self.tilt.map(f64::sin_cos);
+        [sy * cx, -sx, cy * cx]
+    }
+
+    /// Slope of the radius along the axis in the middle [-], and its decrease [1/m].
+    pub fn shape(&self) -> [f64; 2] {
+        let curvature = self.crown.map_or(0.0, |crown| {
+            8.0 * crown.height / (crown.width * crown.width)
+        });
+        [self.taper.tan(), curvature]
+    }
+
+    /// Whether it is not a cylinder about z in the plane of the drive.
+    pub fn is_misaligned(&self) -> bool {
+        let straight = self.crown.is_none_or(|crown| crown.height == 0.0);
+        !straight || self.offset != 0.0 || self.tilt != [0.0, 0.0] || self.taper != 0.0
     }
 
     /// All that acts on it from outside of the drive.
@@ -343,6 +487,34 @@ impl Drive {
             (Some(back), Wrap::Outside) => back,
             _ => &self.contact.friction,
         }
+    }
+
+    /// Mass of the belt by what contact is integrated over: line density [kg/m], of plates mass per area
+    /// [kg/m²].
+    pub fn contact_mass(&self) -> f64 {
+        let Belt {
+            element,
+            density,
+            width,
+            thickness,
+            ..
+        } = self.belt;
+        if element.is_spatial() {
+            density * thickness
+        } else {
+            density * width * thickness
+        }
+    }
+
+    /// Contact integration points around the belt.
+    pub fn contact_points(&self) -> usize {
+        let points = self.contact.points;
+        let each = if self.belt.element.is_spatial() {
+            self.belt.elements_across * points * points
+        } else {
+            points
+        };
+        self.belt.elements * each
     }
 
     /// Coefficient of friction [-] on `pulley`, its groove taken in.
@@ -381,6 +553,10 @@ pub struct Run {
     /// Times at which the belt's profile is recorded [s]; empty: the end.
     #[schemars(schema_with = "units::times")]
     pub profile_times: Vec<f64>,
+    /// The line of a belt in space that the profile shows: 0 for one edge, 1 for the other [-].
+    #[serde(skip_serializing_if = "is_the_middle")]
+    #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0, "maximum" = 1.0))]
+    pub profile_line: f64,
 }
 
 /// The time step: chosen by the program, or fixed.
@@ -435,12 +611,35 @@ impl Default for Run {
             integrator: Integrator::Auto,
             start: Start::Rest,
             profile_times: Vec::new(),
+            profile_line: MIDDLE,
         }
     }
 }
 
 fn one() -> f64 {
     1.0
+}
+
+fn one_across() -> usize {
+    1
+}
+
+// References as serde's signatures have them.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_one(count: &usize) -> bool {
+    *count == 1
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// The line in the middle of the belt.
+const MIDDLE: f64 = 0.5;
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_the_middle(line: &f64) -> bool {
+    line.to_bits() == MIDDLE.to_bits()
 }
 
 fn default_points() -> usize {

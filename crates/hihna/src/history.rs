@@ -7,6 +7,7 @@ use crate::observe::{Powers, PulleyState, SpanState, Stored};
 pub struct History {
     columns: Vec<String>,
     values: Vec<f64>,
+    spatial: bool,
 }
 
 const PULLEY_COLUMNS: [&str; 13] = [
@@ -24,6 +25,14 @@ const PULLEY_COLUMNS: [&str; 13] = [
     "power",
     "friction_loss",
 ];
+/// Further columns of a belt in space.
+const LATERAL_COLUMNS: [&str; 5] = [
+    "hub_force_z",
+    "hub_moment_x",
+    "hub_moment_y",
+    "hub_moment_z",
+    "belt_offset",
+];
 const SPAN_COLUMNS: [&str; 4] = ["tension", "strain", "speed", "deflection"];
 const ENERGY_COLUMNS: [&str; 9] = [
     "energy.kinetic",
@@ -38,12 +47,15 @@ const ENERGY_COLUMNS: [&str; 9] = [
 ];
 
 impl History {
-    /// An empty history of a drive with pulleys `names`.
+    /// An empty history of a drive with pulleys `names` and a belt in the plane or in space.
     #[must_use]
-    pub fn new(names: &[String]) -> Self {
+    pub fn new(names: &[String], spatial: bool) -> Self {
         let mut columns = vec!["time".to_owned()];
         for name in names {
             columns.extend(PULLEY_COLUMNS.iter().map(|c| format!("{name}.{c}")));
+            if spatial {
+                columns.extend(LATERAL_COLUMNS.iter().map(|c| format!("{name}.{c}")));
+            }
         }
         for (i, name) in names.iter().enumerate() {
             let to = &names[(i + 1) % names.len()];
@@ -53,6 +65,7 @@ impl History {
         Self {
             columns,
             values: Vec::new(),
+            spatial,
         }
     }
 
@@ -84,6 +97,11 @@ impl History {
                 p.torque * p.speed,
                 p.friction_loss,
             ]);
+            if self.spatial {
+                values.push(p.lateral.hub_force);
+                values.extend(p.lateral.hub_moment);
+                values.push(p.lateral.belt_offset);
+            }
         }
         for s in spans {
             values.extend([s.tension, s.strain, s.speed, s.deflection]);

@@ -20,6 +20,7 @@ mod overrides;
 mod problem;
 mod rules;
 mod shape;
+mod spatial;
 
 pub use document::{Place, Source};
 pub use number_field::{NumberField, NumberRefused, UnknownNumber};
@@ -30,6 +31,9 @@ pub use problem::{FieldPath, InputError, InputErrors, Problem, Segment};
 use check::Checker;
 use document::Node;
 use shape::Shape;
+
+/// The element whose contact is stated per area of belt.
+const PER_AREA: &str = "plate";
 
 /// A checked drive and the text that it came from, so that what is found to be wrong with it later
 /// is told with the line of the file, too.
@@ -70,6 +74,8 @@ impl DriveFile {
                 checker.structural.push(*error);
             }
         }
+        let element = document.get("belt").and_then(|belt| belt.get("element"));
+        checker.per_area = element.and_then(Node::text) == Some(PER_AREA);
         let value = checker.check(shape, &document, &FieldPath::default());
         let mut problems = checker.ranges;
         let drive = match value {

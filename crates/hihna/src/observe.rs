@@ -3,20 +3,21 @@
 mod belt;
 mod profile;
 mod span;
+mod station;
+mod surface;
 
 use ancf::dynamics::Motion;
 use ancf::element::{Element, LineElement};
+use ancf::mesh::Mesh;
 use ancf::system::{Mechanics, State, System};
 
-use crate::contact::{BeltContact, BeltPoint, PulleyContact};
+use crate::contact::{BeltPoint, ContactPulley, Lateral, PulleyContact};
 use crate::layout::Layout;
 
 use belt::BeltSurvey;
 pub use profile::ProfileRow;
 pub use span::SpanState;
-
-/// A belt of elements `E` on its pulleys.
-pub type BeltSystem<E> = System<E, BeltContact>;
+pub use station::{PulleyLaw, Station, Stations, Touch};
 
 /// A pulley at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,6 +32,8 @@ pub struct PulleyState {
     pub external_torque: f64,
     /// Force of the belt on the pulley [N].
     pub hub_force: [f64; 2],
+    /// What a belt in space does out of the plane.
+    pub lateral: Lateral,
     /// Mean velocity of the belt against the pulley's surface over the contact [m/s].
     pub slip_speed: f64,
     /// Angle of the arc in contact [rad].
@@ -67,7 +70,7 @@ impl Stored {
 /// Powers at one time [W].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Powers {
-    /// Put in by the drivers.
+    /// Put in by the drivers and by what moves the pulleys' centres.
     pub input: f64,
     /// Put in by external torques on the other pulleys (negative: taken out).
     pub load: f64,
@@ -110,8 +113,8 @@ pub struct Observer {
 
 impl Observer {
     /// An observer of `system` whose pulleys are named `names`.
-    pub fn new<E: LineElement>(
-        system: &BeltSystem<E>,
+    pub fn new<E: Element, L: PulleyLaw<E>>(
+        system: &System<E, L>,
         names: Vec<String>,
         inertias: &[f64],
     ) -> Self {
@@ -134,34 +137,34 @@ impl Observer {
     }
 
     /// Takes in what the belt does to the pulleys at `motion`.
-    pub fn look<E: LineElement>(&mut self, system: &BeltSystem<E>, motion: &Motion) {
+    pub fn look<E: Element, L: PulleyLaw<E>>(&mut self, system: &System<E, L>, motion: &Motion) {
         system.law.resultants(state(motion), &mut self.contacts);
     }
 
     /// Takes in every point of the belt at `motion` as well.
-    pub fn survey<E: LineElement>(&mut self, system: &BeltSystem<E>, motion: &Motion) {
+    pub fn survey<E: Element, L: PulleyLaw<E>>(&mut self, system: &System<E, L>, motion: &Motion) {
         self.look(system, motion);
         self.belt.take(system, motion);
     }
 
-    /// Takes in the belt at `q` as seen at `points`, all around it in order, and what it does to the
-    /// pulleys by `contacts`.
+    /// Takes in the belt of `mesh` at `q` as seen at `points`, all around it in order, and by `contacts` what it does
+    /// to `pulleys`.
     pub(crate) fn take_points<E: LineElement>(
         &mut self,
-        system: &BeltSystem<E>,
+        mesh: &Mesh<E>,
+        pulleys: &[ContactPulley],
         q: &[f64],
-        points: Vec<BeltPoint>,
+        points: &[BeltPoint],
         contacts: Vec<PulleyContact>,
     ) {
         self.contacts = contacts;
-        self.belt.points = points;
-        self.belt.examine(system, q);
+        self.belt.take_points(mesh, pulleys, q, points);
     }
 
     /// Angle, speed and external torque of pulley `p` at `motion`, which was looked at last.
-    fn rotor<E: LineElement>(
+    fn rotor<E: Element, L: PulleyLaw<E>>(
         &self,
-        system: &BeltSystem<E>,
+        system: &System<E, L>,
         motion: &Motion,
         p: usize,
     ) -> (f64, f64, f64) {
@@ -170,17 +173,16 @@ impl Observer {
         let external = if prescribed {
             inertia * motion.a[at] - self.contacts[p].torque
         } else {
-            system.law.pulleys[p]
-                .external
-                .value(motion.time, motion.v[at])
+            let external = system.law.external(p);
+            external.value(motion.time, motion.v[at])
         };
         (motion.q[at], motion.v[at], external)
     }
 
     /// Speed and torque (of the belt and external together) of pulley `p` at the state looked at last.
-    pub fn momentum<E: LineElement>(
+    pub fn momentum<E: Element, L: PulleyLaw<E>>(
         &self,
-        system: &BeltSystem<E>,
+        system: &System<E, L>,
         motion: &Motion,
         p: usize,
     ) -> (f64, f64) {
@@ -189,9 +191,9 @@ impl Observer {
     }
 
     /// Every pulley of the state surveyed last, into `out`.
-    pub fn pulleys<E: LineElement>(
+    pub fn pulleys<E: Element, L: PulleyLaw<E>>(
         &self,
-        system: &BeltSystem<E>,
+        system: &System<E, L>,
         motion: &Motion,
         out: &mut [PulleyState],
     ) {
@@ -205,6 +207,7 @@ impl Observer {
                 torque: contact.torque,
                 external_torque,
                 hub_force: contact.hub_force,
+                lateral: contact.lateral,
                 slip_speed: contact.slip_speed,
                 contact_angle: arc.contact_angle,
                 slip_angle: arc.slip_angle,
@@ -216,7 +219,11 @@ impl Observer {
     }
 
     /// The powers at `motion`, which was looked at last.
-    pub fn powers<E: LineElement>(&self, system: &BeltSystem<E>, motion: &Motion) -> Powers {
+    pub fn powers<E: Element, L: PulleyLaw<E>>(
+        &self,
+        system: &System<E, L>,
+        motion: &Motion,
+    ) -> Powers {
         let mut powers = Powers::default();
         for (p, contact) in self.contacts.iter().enumerate() {
             let (_, speed, external) = self.rotor(system, motion, p);
@@ -226,6 +233,12 @@ impl Observer {
                 powers.load += external * speed;
             }
             powers.turnover += (external * speed).abs();
+            // Whoever moves the hub holds it against the belt.
+            let [fx, fy] = contact.hub_force;
+            let [vx, vy, vz] = system.law.hub_velocity(p, motion.time);
+            let moving = -(fx * vx + fy * vy + contact.lateral.hub_force * vz);
+            powers.input += moving;
+            powers.turnover += moving.abs();
             powers.friction += contact.friction_loss;
             powers.contact += contact.contact_loss;
         }
@@ -236,7 +249,11 @@ impl Observer {
     }
 
     /// The stored energies at `motion`, which was looked at last.
-    pub fn stored<E: LineElement>(&self, system: &BeltSystem<E>, motion: &Motion) -> Stored {
+    pub fn stored<E: Element, L: PulleyLaw<E>>(
+        &self,
+        system: &System<E, L>,
+        motion: &Motion,
+    ) -> Stored {
         Stored {
             kinetic: system.kinetic_energy(&motion.v),
             strain: system.strain_energy(&motion.q),

@@ -324,6 +324,12 @@ pub(crate) fn angle(generator: &mut SchemaGenerator) -> Schema {
     profile_of(generator, &angle)
 }
 
+/// Schema of a displacement in time [m].
+pub(crate) fn length(generator: &mut SchemaGenerator) -> Schema {
+    let length = units::length(generator);
+    profile_of(generator, &length)
+}
+
 /// Schema of a prescribed speed in time [rad/s].
 pub(crate) fn angular_velocity(generator: &mut SchemaGenerator) -> Schema {
     let angular_velocity = units::angular_velocity(generator);

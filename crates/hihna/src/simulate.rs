@@ -8,16 +8,16 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use ancf::dynamics::{IntegrationError, Statistics, integrate};
-use ancf::element::{BeltBeam2, CubicBeam2, LinearBeam2};
+use ancf::element::{BeltBeam2, CubicBeam2, Element, LinearBeam2};
 use ancf::statics::{Settle, Settled, StaticsError, settle_watched};
 use ancf::system::Mechanics;
 use thiserror::Error;
 
-use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, Warning};
+use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, Warning};
 use crate::drive::{BeltElement, Drive, Joint};
 use crate::history::History;
 use crate::layout::Layout;
-use crate::observe::ProfileRow;
+use crate::observe::{ProfileRow, PulleyLaw};
 
 pub use control::nominal_speed;
 use place::place;
@@ -110,6 +110,9 @@ impl Audit {
     }
 }
 
+/// Hours to days of computing.
+const MOST_STEPS: f64 = 1.0e9;
+
 /// A run that failed.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RunError {
@@ -123,6 +126,16 @@ pub enum RunError {
         place: String,
         /// Why.
         cause: StaticsError,
+    },
+    /// The run would never end.
+    #[error("the run of {end} s would take {count:.1e} steps of {step:.1e} s")]
+    TooManySteps {
+        /// Time to run [s].
+        end: f64,
+        /// Number of steps.
+        count: f64,
+        /// Longest step [s].
+        step: f64,
     },
     /// A step did not converge.
     #[error("the run stops at t = {time:.6} s, {place}: {cause}")]
@@ -170,28 +183,62 @@ pub fn simulate(
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Outcome, RunError> {
     match drive.belt.element {
-        BeltElement::BeltBeam => run::<BeltBeam2>(drive, observer),
-        BeltElement::CubicBeam => run::<CubicBeam2>(drive, observer),
-        BeltElement::LinearBeam => run::<LinearBeam2>(drive, observer),
+        BeltElement::BeltBeam => planar::<BeltBeam2>(drive, observer),
+        BeltElement::CubicBeam => planar::<CubicBeam2>(drive, observer),
+        BeltElement::LinearBeam => planar::<LinearBeam2>(drive, observer),
+        BeltElement::Plate => run(
+            drive,
+            observer,
+            || PlateAssembly::of_plates(drive),
+            |assembly| {
+                assembly.release_plates(drive);
+                Ok(())
+            },
+        ),
     }
 }
 
-fn run<E: BeltElementType>(
+fn planar<E: BeltElementType>(
     drive: &Drive,
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Outcome, RunError> {
+    run(
+        drive,
+        observer,
+        || Assembly::<E>::new(drive),
+        |assembly| {
+            if drive.belt.joint == Joint::Multipliers {
+                assembly.open_joint(drive)?;
+            }
+            assembly.release(drive);
+            Ok(())
+        },
+    )
+}
+
+/// Runs what `assemble` puts together; `release` gives the settled belt its friction and the pulleys their
+/// torques.
+fn run<E: Element, L: PulleyLaw<E>>(
+    drive: &Drive,
+    observer: &mut dyn FnMut(&Progress) -> Flow,
+    assemble: impl FnOnce() -> Result<Assembly<E, L>, AssemblyError>,
+    release: impl FnOnce(&mut Assembly<E, L>) -> Result<(), AssemblyError>,
+) -> Result<Outcome, RunError> {
     let wall = Instant::now();
     let end = drive.run.end_time;
-    let mut assembly = Assembly::<E>::new(drive)?;
+    let mut assembly = assemble()?;
     let settled = settle_on_pulleys(drive, &mut assembly, REST, observer)?;
-    if drive.belt.joint == Joint::Multipliers {
-        assembly.open_joint(drive)?;
-    }
-    assembly.release(drive);
+    release(&mut assembly)?;
     let control = control::control(drive, &assembly.mounting);
+    let count = end / control.step;
+    // Also where the step is no number.
+    if !(count <= MOST_STEPS) {
+        let step = control.step;
+        return Err(RunError::TooManySteps { end, count, step });
+    }
 
     let mut recorder = Recorder::new(drive, &assembly);
-    let start = recorder.start(&assembly, settled);
+    let start = recorder.start(drive, &assembly, settled);
     let mut steps = 0;
     let mut stopped = None;
     let mut motion = assembly.motion.clone();
@@ -202,7 +249,7 @@ fn run<E: BeltElementType>(
         end,
         &control,
         |system, window| {
-            recorder.step(system, window);
+            let pace = recorder.step(system, window);
             steps += 1;
             let progress = Progress {
                 time: window.to.time,
@@ -210,7 +257,7 @@ fn run<E: BeltElementType>(
                 steps,
             };
             match observer(&progress) {
-                Flow::Continue => ControlFlow::Continue(()),
+                Flow::Continue => ControlFlow::Continue(pace),
                 Flow::Stop => {
                     stopped = Some(window.to.time);
                     ControlFlow::Break(())
@@ -255,15 +302,13 @@ fn run<E: BeltElementType>(
 
 /// Moves the belt from its path to its equilibrium on the frictionless pulleys (see the guide), to a correction below
 /// `accuracy` times the smallest radius.
-pub(crate) fn settle_on_pulleys<E: BeltElementType>(
+pub(crate) fn settle_on_pulleys<E: Element, L: PulleyLaw<E>>(
     drive: &Drive,
-    assembly: &mut Assembly<E>,
+    assembly: &mut Assembly<E, L>,
     accuracy: f64,
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Settled, RunError> {
     // The contact's own frequency sets how strongly the first steps are held back.
-    let belt = &drive.belt;
-    let line_density = belt.density * belt.width * belt.thickness;
     let smallest = drive
         .pulley
         .iter()
@@ -278,7 +323,7 @@ pub(crate) fn settle_on_pulleys<E: BeltElementType>(
         0.0,
         &mut assembly.motion.q,
         Settle {
-            shift: drive.contact.stiffness / line_density,
+            shift: drive.contact.stiffness / drive.contact_mass(),
             shrink: 0.3,
             step_limit: 0.1 * smallest,
             tolerance: accuracy * smallest,

@@ -1,9 +1,12 @@
 //! The summary of a run (`summary.json`).
 
+mod warnings;
+
 use serde::{Serialize, Serializer};
 
 use crate::drive::{BeltElement, Drive};
 use crate::history::History;
+use crate::layout::Arc;
 use crate::simulate::Outcome;
 
 /// Part of the run, at its end, over which steady means are taken.
@@ -47,8 +50,11 @@ pub struct Summary {
 pub struct Model {
     /// Element type.
     pub element: BeltElement,
-    /// Number of elements.
+    /// Number of elements along the belt.
     pub elements: usize,
+    /// Number of elements across a belt of plates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elements_across: Option<usize>,
     /// Number of coordinates.
     pub dofs: usize,
     /// Contact integration points around the belt.
@@ -117,6 +123,9 @@ pub struct PulleyReport {
     pub external_torque: f64,
     /// Force of the belt on the pulley [N].
     pub hub_force: [f64; 2],
+    /// What a belt in space does out of the plane.
+    #[serde(flatten)]
+    pub lateral: Option<LateralReport>,
     /// Mean velocity of the belt against the surface [m/s].
     pub slip_speed: f64,
     /// Loss of the belt's speed on it against the first driver [-], by the radii of the centre line.
@@ -135,6 +144,17 @@ pub struct PulleyReport {
     pub power: f64,
     /// Power that friction takes on the pulley [W].
     pub friction_loss: f64,
+}
+
+/// What a belt in space does to a pulley out of the plane.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LateralReport {
+    /// Force of the belt on the pulley along z [N].
+    pub hub_force_z: f64,
+    /// Moment of the belt on the pulley about its centre [N m].
+    pub hub_moment: [f64; 3],
+    /// Mean place of the belt along the pulley's axis, from its middle [m].
+    pub belt_offset: f64,
 }
 
 /// A span at one time, or on average.
@@ -205,13 +225,18 @@ impl Summary {
         let end = drive.run.end_time;
         let statistics = outcome.statistics;
         let last = outcome.history.rows().next_back().map_or(end, |row| row[0]);
+        let steady = report(drive, outcome, (1.0 - STEADY_PART) * end, end);
+        let mut warnings: Vec<_> = outcome.warnings.iter().map(ToString::to_string).collect();
+        warnings.extend(warnings::of_running(&steady));
         Self {
             title: drive.title.clone(),
             model: Model {
                 element: drive.belt.element,
                 elements: drive.belt.elements,
+                elements_across: (drive.belt.element.is_spatial())
+                    .then_some(drive.belt.elements_across),
                 dofs: outcome.dofs,
-                contact_points: drive.belt.elements * drive.contact.points,
+                contact_points: drive.contact_points(),
                 path_length: outcome.mounting.path,
                 belt_length: outcome.mounting.length,
             },
@@ -233,7 +258,7 @@ impl Summary {
                 path_tension: outcome.mounting.tension,
             },
             end: report(drive, outcome, last, last),
-            steady: report(drive, outcome, (1.0 - STEADY_PART) * end, end),
+            steady,
             scatter: scatter(drive, &outcome.history, (1.0 - STEADY_PART) * end, end),
             audit: Audit {
                 energy_input: outcome.audit.energy_input,
@@ -242,9 +267,14 @@ impl Summary {
                 tolerance: outcome.audit.tolerance,
                 passed: outcome.audit.passed(),
             },
-            warnings: outcome.warnings.iter().map(ToString::to_string).collect(),
+            warnings,
         }
     }
+}
+
+/// Radius, negative where the belt turns the pulley against the others.
+fn surface(arc: &Arc) -> f64 {
+    arc.radius * arc.sweep.signum()
 }
 
 /// Means over the rows with times in `[from, to]`; a single row if both are its time.
@@ -257,7 +287,7 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
         .iter()
         .position(crate::drive::Pulley::is_driver)
         .map_or(0.0, |p| {
-            mean(&format!("{}.speed", names[p])).abs() * outcome.layout.arcs[p].radius
+            mean(&format!("{}.speed", names[p])) * surface(&outcome.layout.arcs[p])
         });
     let pulley = drive
         .pulley
@@ -266,16 +296,21 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
         .map(|(p, arc)| {
             let of = |what: &str| mean(&format!("{}.{what}", p.name));
             let speed = of("speed");
-            let speed_loss = if reference > 0.0 {
-                1.0 - speed.abs() * arc.radius / reference
-            } else {
+            let speed_loss = if reference == 0.0 {
                 0.0
+            } else {
+                1.0 - speed * surface(arc) / reference
             };
             let report = PulleyReport {
                 speed,
                 torque: of("torque"),
                 external_torque: of("external_torque"),
                 hub_force: [of("hub_force_x"), of("hub_force_y")],
+                lateral: drive.belt.element.is_spatial().then(|| LateralReport {
+                    hub_force_z: of("hub_force_z"),
+                    hub_moment: ["x", "y", "z"].map(|axis| of(&format!("hub_moment_{axis}"))),
+                    belt_offset: of("belt_offset"),
+                }),
                 slip_speed: of("slip_speed"),
                 speed_loss,
                 wrap_angle: arc.sweep.abs(),

@@ -266,6 +266,57 @@ pub(crate) const UNIT: &str = "x-unit";
 /// Dimension of values in a profile before a field lends its own.
 const FIELD: &str = "of the field";
 
+/// What contact laws are stated in on a surface, per area of belt, beside the same per length.
+static PER_AREA: &[(&str, Dimension)] = &[
+    (
+        "stiffness per length",
+        Dimension {
+            name: "stiffness per area",
+            unit: "N/m3",
+            example: "1e7 N/m3",
+            usual: &["N/m3", "kN/m3", "N/mm3"],
+            aliases: &[],
+            parse: |text| per_area(text, &STIFFNESSES),
+            names: || STIFFNESSES.map(|(name, _)| [name; 3]).to_vec(),
+        },
+    ),
+    (
+        "damping per length",
+        Dimension {
+            name: "damping per area",
+            unit: "N s/m3",
+            example: "2000 N s/m3",
+            usual: &["N s/m3", "kN s/m3", "N s/mm3"],
+            aliases: &[],
+            parse: |text| per_area(text, &DAMPINGS),
+            names: || DAMPINGS.map(|(name, _)| [name; 3]).to_vec(),
+        },
+    ),
+];
+
+const STIFFNESSES: [(&str, f64); 4] = [
+    ("N/m3", 1.0),
+    ("kN/m3", 1.0e3),
+    ("MN/m3", 1.0e6),
+    ("N/mm3", 1.0e9),
+];
+const DAMPINGS: [(&str, f64); 3] = [("N s/m3", 1.0), ("kN s/m3", 1.0e3), ("N s/mm3", 1.0e9)];
+
+/// Value in SI of a number in one of `units`, for which the crate of units has no quantity.
+fn per_area(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let (number, unit) = split_number(text);
+    let (_, factor) = units.iter().find(|(name, _)| *name == unit)?;
+    Some(number.parse::<f64>().ok()? * factor)
+}
+
+impl Dimension {
+    /// The same per area of belt, of a dimension per length of belt.
+    pub fn per_area(&self) -> Option<&'static Self> {
+        let found = PER_AREA.iter().find(|(name, _)| *name == self.name);
+        found.map(|(_, dimension)| dimension)
+    }
+}
+
 /// The dimension of that name.
 pub fn dimension(name: &str) -> Option<&'static Dimension> {
     DIMENSIONS.iter().find(|dimension| dimension.name == name)
@@ -298,6 +349,15 @@ pub(crate) fn times(generator: &mut SchemaGenerator) -> Schema {
 /// Schema of a point in the plane [m].
 pub(crate) fn point(generator: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "array", "items": length(generator), "minItems": 2, "maxItems": 2 })
+}
+
+/// Schema of the tilt of an axis about x and y [rad].
+pub(crate) fn tilt(generator: &mut SchemaGenerator) -> Schema {
+    let steepest = crate::drive::STEEPEST;
+    let mut angle = angle(generator);
+    angle.insert("minimum".to_owned(), (-steepest).into());
+    angle.insert("maximum".to_owned(), steepest.into());
+    json_schema!({ "type": "array", "items": angle, "minItems": 2, "maxItems": 2 })
 }
 
 /// Schema of a list of angular velocities [rad/s].
@@ -436,7 +496,8 @@ mod tests {
     /// Every unit of the messages and every example can be read, and no spelling has two meanings.
     #[test]
     fn units_are_unambiguous() {
-        for dimension in DIMENSIONS {
+        let per_area = PER_AREA.iter().map(|(_, dimension)| dimension);
+        for dimension in DIMENSIONS.iter().chain(per_area) {
             assert!(
                 dimension.parse(dimension.example).is_ok(),
                 "{}",

@@ -21,6 +21,7 @@ mod markdown;
 mod other_drives;
 mod pendulum;
 mod planar_beams;
+mod plate_belt;
 mod ring_down;
 mod selection;
 mod spin_up;
@@ -84,6 +85,11 @@ const COMPUTATIONS: &[(&str, Compute)] = &[
         "chapter-4-analytical/figures-4.17-4.18",
         string_drive::contact_forces,
     ),
+    ("chapter-4-plate/figure-4.10", plate_belt::figure_4_10),
+    (
+        "chapter-4-plate/figures-4.12-4.18",
+        plate_belt::figures_4_12_to_4_18,
+    ),
 ];
 
 /// The data files, in the order of the program's output.
@@ -91,6 +97,7 @@ const DATA: &[&str] = &[
     include_str!("../../../validation/chapter-2.toml"),
     include_str!("../../../validation/chapter-3.toml"),
     include_str!("../../../validation/chapter-4-analytical.toml"),
+    include_str!("../../../validation/chapter-4-plate.toml"),
 ];
 
 /// Why a case could not be computed: all its judged rows fail.

@@ -66,6 +66,7 @@ fn contact(friction: Law, clamp: bool, height: f64) -> BeltContact {
     );
     let pulley = |center, radius, height, torque| ContactPulley {
         center,
+        displacement: None,
         radius,
         friction,
         height,

@@ -331,6 +331,20 @@ fn audits_close_in_slow_drives_and_short_runs() {
     assert_audit(&run(&[DRIVER, DRIVEN], LENGTH, &["run.end_time=0.15"]));
 }
 
+/// A driver that has its full speed at once slips under the belt, which swings and beats: errors of
+/// prediction do not see what that costs, the energy balance does.
+#[test]
+fn audits_close_when_the_driver_starts_with_a_jump() {
+    let outcome = run(
+        &[DRIVER, DRIVEN],
+        LENGTH,
+        &["pulley.driver.speed=12.0", "run.end_time=0.1"],
+    );
+    assert_audit(&outcome);
+    let lost = last(&outcome, "energy.friction_loss") / last(&outcome, "energy.input");
+    assert!(lost > 0.5, "friction takes {lost} of the input");
+}
+
 /// A small idler that presses far into the belt's path: the start is hard to settle.
 #[test]
 fn a_small_idler_deep_in_the_path_settles() {
@@ -396,4 +410,21 @@ fn joint_by_multipliers_gives_the_motion_of_the_shared_node() {
         let off = difference(&column(&shared, name), 1.0, &column(&tied, name));
         assert!(off < TO_SOLVER_TOLERANCE, "{name}: {off:.1e}");
     }
+}
+
+/// A load beyond what friction carries drags the driven pulley backwards: the summary says that it slips, and
+/// its loss of speed is more than all of it.
+#[test]
+fn a_pulley_dragged_backwards_is_told() {
+    let load = "pulley.driven.torque={kind=\"half-cosine\",from=0.0,to=-8.0,start=0.1,end=0.4}";
+    let text = include_str!("../../../examples/two_pulley.toml");
+    let changes = [load, "run.end_time=0.7"].map(|change| change.parse().expect("an override"));
+    let drive = hihna::input::parse("two_pulley.toml", text, &changes).expect("a drive");
+    let outcome = simulate(&drive, &mut |_| Flow::Continue).expect("the drive runs");
+    let summary = hihna::summary::Summary::new(&drive, &outcome);
+    let (_, driven) = &summary.steady.pulley.0[1];
+    assert!(driven.speed < 0.0 && driven.speed_loss > 1.0, "{driven:?}");
+    let warnings = summary.warnings.join("\n");
+    assert!(warnings.contains("slips on pulley `driven`"), "{warnings}");
+    assert_audit(&outcome);
 }

@@ -24,8 +24,12 @@ const HALVINGS_BEFORE_FALLBACK: u32 = 3;
 const MAX_HALVINGS: u32 = 10;
 /// Steps that the fall-back makes before generalized-alpha is tried again.
 const FALLBACK_STEPS: usize = 32;
+/// How far before a jump of the forces a step ends, by the length of a step: nothing moves in that time.
+const BEFORE_A_JUMP: f64 = 1.0e-9;
 /// Good steps before the step is doubled.
 const PATIENCE: usize = 3;
+/// Halvings that an observer may ask for beyond what errors of prediction call for.
+const MOST_ASKED: u32 = 6;
 
 /// Time integrators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -54,6 +58,9 @@ pub struct Control {
     pub newton_tolerance: f64,
     /// Times that steps must hit [s].
     pub kinks: Vec<f64>,
+    /// Times at which forces jump [s]: a step ends just before, the next begins at the jump with new
+    /// accelerations.
+    pub jumps: Vec<f64>,
 }
 
 impl Control {
@@ -66,7 +73,26 @@ impl Control {
             error_tolerance: None,
             newton_tolerance: 1.0e-9,
             kinks: Vec::new(),
+            jumps: Vec::new(),
         }
+    }
+}
+
+/// What an observer wants of the steps to come, where they are chosen automatically.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Pace {
+    /// No wish.
+    #[default]
+    Free,
+    /// No longer steps than now.
+    Hold,
+    /// Steps of half the length.
+    Finer,
+}
+
+impl From<()> for Pace {
+    fn from((): ()) -> Self {
+        Self::Free
     }
 }
 
@@ -118,13 +144,14 @@ pub enum IntegrationError {
 }
 
 /// Integrates `motion` to time `end`, calling `observe` after every accepted step; stops early when
-/// it breaks. `motion` starts with time, coordinates and velocities and ends with the last state.
-pub fn integrate<S: Mechanics>(
+/// it breaks, and otherwise goes on at the [`Pace`] it returns (`()` for any). `motion` starts with time,
+/// coordinates and velocities and ends with the last state.
+pub fn integrate<S: Mechanics, P: Into<Pace>>(
     system: &mut S,
     motion: &mut Motion,
     end: f64,
     control: &Control,
-    mut observe: impl FnMut(&mut S, Window<'_>) -> ControlFlow<()>,
+    mut observe: impl FnMut(&mut S, Window<'_>) -> ControlFlow<(), P>,
 ) -> Result<Statistics, IntegrationError> {
     let size = motion.q.len();
     let mut stage = Stage::new(system, control.newton_tolerance);
@@ -142,9 +169,13 @@ pub fn integrate<S: Mechanics>(
         .filter(|kink| *kink > motion.time && *kink < end)
         .collect();
     boundaries.push(end);
+    let jumps = Jumps::within(control, motion.time, end);
+    boundaries.retain(|boundary| !jumps.hold(*boundary));
+    boundaries.extend(jumps.0.iter().map(|(before, _)| *before));
     boundaries.sort_by(f64::total_cmp);
     boundaries.dedup();
     let mut level = 0;
+    let mut asked = Asked::default();
     for boundary in boundaries {
         let mut grid = Grid::new(motion.time, boundary, control.step, level);
         let mut good = 0;
@@ -198,18 +229,60 @@ pub fn integrate<S: Mechanics>(
                 v: &next.v,
             });
             std::mem::swap(motion, &mut next);
-            if flow.is_break() {
-                return Ok(stage.statistics);
-            }
+            let pace = match flow {
+                ControlFlow::Continue(pace) if control.error_tolerance.is_some() => pace.into(),
+                ControlFlow::Continue(_) => Pace::Free,
+                ControlFlow::Break(()) => return Ok(stage.statistics),
+            };
             good = if may_double { good + 1 } else { 0 };
-            if good >= PATIENCE && grid.coarsen() {
+            if asked.finer(pace) && !grid.is_done() && grid.refine() {
+                good = 0;
+            } else if good >= PATIENCE && pace == Pace::Free && grid.coarsen() {
+                asked.coarsened();
                 good = 0;
             }
         }
         motion.time = boundary;
         level = grid.level;
+        if let Some(after) = jumps.after(boundary) {
+            motion.time = after;
+            stage.accelerations(system, motion);
+            motion.algorithmic.copy_from_slice(&motion.a);
+        }
     }
     Ok(stage.statistics)
+}
+
+/// The jumps of the forces: the last time before each, and its own.
+struct Jumps(Vec<(f64, f64)>);
+
+impl Jumps {
+    fn within(control: &Control, start: f64, end: f64) -> Self {
+        let before = |jump: f64| jump - BEFORE_A_JUMP * control.step;
+        let jumps = control.jumps.iter().copied();
+        Self(
+            jumps
+                .filter(|jump| before(*jump) > start && *jump < end)
+                .map(|jump| (before(jump), jump))
+                .collect(),
+        )
+    }
+
+    /// Whether `time` is a jump.
+    fn hold(&self, time: f64) -> bool {
+        self.0
+            .iter()
+            .any(|(_, jump)| jump.to_bits() == time.to_bits())
+    }
+
+    /// The jump that `time` is just before.
+    fn after(&self, time: f64) -> Option<f64> {
+        let found = self
+            .0
+            .iter()
+            .find(|(before, _)| before.to_bits() == time.to_bits());
+        found.map(|(_, jump)| *jump)
+    }
 }
 
 /// Largest difference [m/s] between the velocities of nodes found and those predicted by constant
@@ -220,6 +293,31 @@ fn prediction_error(norm: &VectorNorm, from: &Motion, to: &Motion, difference: &
         *value = to.v[i] - from.v[i] - h * from.a[i];
     }
     norm.largest(difference).0
+}
+
+/// Halvings that the observer asked for.
+#[derive(Default)]
+struct Asked {
+    halvings: u32,
+    /// Steps since the last of them.
+    waited: usize,
+}
+
+impl Asked {
+    /// Whether to halve now: some steps must show what the last halving did, and there is an end to it.
+    fn finer(&mut self, pace: Pace) -> bool {
+        self.waited += 1;
+        let yes = pace == Pace::Finer && self.waited > PATIENCE && self.halvings < MOST_ASKED;
+        if yes {
+            self.halvings += 1;
+            self.waited = 0;
+        }
+        yes
+    }
+
+    fn coarsened(&mut self) {
+        self.halvings = self.halvings.saturating_sub(1);
+    }
 }
 
 /// The scheme in use and its stand-in.

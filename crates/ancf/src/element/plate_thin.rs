@@ -168,10 +168,10 @@ impl ThinPlate {
     }
 
     /// Membrane forces per undeformed width [N/m] of the second Piola-Kirchhoff stress,
-    /// `[xx, yy, xy]`, at `place` (in parts of length and width). The true force per undeformed width along
-    /// a fibre is this times its stretch.
-    pub fn membrane_forces(&self, e: &[f64], place: [f64; 2]) -> [f64; 3] {
-        let [xx, yy, xy] = self.surface_gradient(e, place).green();
+    /// `[xx, yy, xy]`, where the surface has this gradient. The true force per undeformed width along a fibre
+    /// is this times its stretch.
+    pub fn membrane_forces(&self, gradient: &SurfaceGradient) -> [f64; 3] {
+        let [xx, yy, xy] = gradient.green();
         self.membrane.forces([xx, yy, 2.0 * xy])
     }
 }

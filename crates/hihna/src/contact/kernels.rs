@@ -50,7 +50,8 @@ fn for_contacts<S: EightLanes>(
         let (middle, reach) = contact.hull(element, &position);
         for (p, pulley) in contact.pulleys.iter().enumerate() {
             let table = contact.table(element, contact.line_of[p]);
-            let (dx, dy) = (middle[0] - pulley.center[0], middle[1] - pulley.center[1]);
+            let [center, drift] = pulley.hub(state.time);
+            let (dx, dy) = (middle[0] - center[0], middle[1] - center[1]);
             let limit = pulley.radius + reach;
             if dx * dx + dy * dy >= limit * limit {
                 continue;
@@ -58,7 +59,10 @@ fn for_contacts<S: EightLanes>(
             let speed = state.v[rotors + p];
             for (k, table) in table.batches.iter().enumerate() {
                 let mut r = [S::zero(); 2];
-                let mut v = [S::zero(); 2];
+                let mut v = drift.map(
+                    #[inline(always)]
+                    |x| S::constant(0.0 - x),
+                );
                 for slot in 0..count {
                     let shape = S::load(&table.shape[slot]);
                     for axis in 0..2 {
@@ -75,6 +79,7 @@ fn for_contacts<S: EightLanes>(
                 let meeting = Meeting {
                     r,
                     v,
+                    center,
                     speed,
                     anchor,
                 };

@@ -10,8 +10,10 @@ use crate::friction::{FrictionLaw, Slip};
 pub(crate) struct Meeting<S> {
     /// Position r of the belt's point [m].
     pub r: [S; 2],
-    /// Its velocity r' [m/s].
+    /// Its velocity r' against the pulley's centre [m/s].
     pub v: [S; 2],
+    /// The pulley's centre O [m].
+    pub center: [f64; 2],
     /// Speed of the pulley [rad/s].
     pub speed: f64,
     /// Outward unit vector to the place on the pulley where the point's bristle stands, turned with the
@@ -55,10 +57,11 @@ impl<S: Scalar> PointContact<S> {
         let Meeting {
             r,
             v,
+            center,
             speed,
             anchor,
         } = *meeting;
-        let arm = [r[0] - pulley.center[0], r[1] - pulley.center[1]];
+        let arm = [r[0] - center[0], r[1] - center[1]];
         let distance = (arm[0] * arm[0] + arm[1] * arm[1]).sqrt();
         let inverse_distance = distance.recip();
         let n = [arm[0] * inverse_distance, arm[1] * inverse_distance];

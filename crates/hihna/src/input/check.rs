@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use crate::input::document::{Node, NodeValue};
+use crate::input::document::{Node, NodeValue, readable};
 use crate::input::problem::{FieldPath, InputError, Problem, nearest, quoted};
 use crate::input::shape::{Bounds, Field, Shape};
 use crate::units::{Dimension, QuantityError};
@@ -14,6 +14,8 @@ pub(crate) struct Checker {
     pub structural: Vec<InputError>,
     /// Values outside their range.
     pub ranges: Vec<Problem>,
+    /// Whether contact is stated per area of belt, not per length.
+    pub per_area: bool,
 }
 
 impl Checker {
@@ -21,6 +23,9 @@ impl Checker {
     pub fn check(&mut self, shape: &Shape, node: &Node, path: &FieldPath) -> Option<Value> {
         match (shape, &node.value) {
             (Shape::Quantity(dimension, bounds), value) => {
+                if let Some(per_area) = dimension.per_area().filter(|_| self.per_area) {
+                    return self.check(&Shape::Quantity(per_area, bounds.clone()), node, path);
+                }
                 let number = self.quantity(shape, dimension, node, value, path)?;
                 self.range(shape, bounds, number, dimension.unit, path);
                 Some(Value::Float(number))
@@ -129,11 +134,8 @@ impl Checker {
 
     fn range(&mut self, shape: &Shape, bounds: &Bounds, value: f64, unit: &str, path: &FieldPath) {
         if let Some(demand) = bounds.broken_by(value, unit) {
-            let amount = if unit.is_empty() {
-                value.to_string()
-            } else {
-                format!("{value} {unit}")
-            };
+            let amount = format!("{} {unit}", readable(value));
+            let amount = amount.trim_end();
             self.ranges.push(
                 Problem::new(path.clone(), format!("`{path}` {demand}, but is {amount}"))
                     .expected(shape.expectation()),

@@ -1,9 +1,10 @@
 //! Rules that involve several fields of a drive. Ranges of single fields are attributes of `Drive`.
 
-use crate::assemble::{AssemblyError, Mounting, closable};
-use crate::drive::{Belt, BeltElement, Drive, Pulley, Run, Step};
+use crate::assemble::{AssemblyError, Mounting, closable, contraction};
+use crate::drive::{Belt, BeltElement, Drive, Pulley, Run, Step, Surface};
 use crate::input::check::own_name;
 use crate::input::problem::{FieldPath, Problem, quoted};
+use crate::input::spatial;
 use crate::layout::{Layout, LayoutError};
 use crate::load::Load;
 use crate::profile::{Profile, Varying};
@@ -29,7 +30,9 @@ pub(crate) fn problems(drive: &Drive) -> Vec<Problem> {
         name(pulley, &drive.pulley[..i], &path, &mut problems);
         overlap(pulley, &drive.pulley[..i], &path, &mut problems);
         motion(pulley, &path, &mut problems);
+        thickness(drive, pulley, &path, &mut problems);
     }
+    spatial::problems(drive, &mut problems);
     span_names(&drive.pulley, &mut problems);
     run(&drive.run, &mut problems);
     problems
@@ -50,13 +53,18 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
     let fit = Layout::of(drive)
         .map_err(AssemblyError::Layout)
         .and_then(|layout| Mounting::new(&drive.belt, &layout))
-        .and_then(|mounting| closable(drive, &mounting));
+        .and_then(|mounting| {
+            if drive.belt.element.is_spatial() {
+                contraction(&drive.belt, &mounting)?;
+            }
+            closable(drive, &mounting)
+        });
     let error = fit.err()?;
     let pulleys = FieldPath::default().field("pulley");
     let path = match &error {
-        AssemblyError::TooLong { .. } | AssemblyError::TooShort { .. } => {
-            FieldPath::default().field("belt").field(tightness)
-        }
+        AssemblyError::TooLong { .. }
+        | AssemblyError::TooShort { .. }
+        | AssemblyError::NoWidth { .. } => FieldPath::default().field("belt").field(tightness),
         AssemblyError::Layout(
             LayoutError::NoContact { pulley, .. }
             | LayoutError::SpanBlocked { pulley, .. }
@@ -84,6 +92,9 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
         }),
         AssemblyError::TooFewElements { elements, .. } => {
             problem.expected(format!("at least {elements} elements"))
+        }
+        AssemblyError::NoWidth { .. } => {
+            problem.expected("a belt that is stretched less, or a smaller Poisson's ratio")
         }
         AssemblyError::Joint(_) => problem,
         AssemblyError::Layout(_) => {
@@ -253,6 +264,25 @@ fn overlap(pulley: &Pulley, before: &[Pulley], path: &FieldPath, problems: &mut 
     }
 }
 
+/// A belt that touches with its centre line is bent about the pulley's radius: half of its thickness must
+/// find room there.
+fn thickness(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
+    let half = 0.5 * drive.belt.thickness;
+    if drive.contact.surface == Surface::CentreLine && half >= pulley.radius {
+        problems.push(
+            Problem::new(
+                path.field("radius"),
+                format!(
+                    "the belt is too thick for `{path}`: half of its thickness, {half} m, is not less than the radius, {} m",
+                    pulley.radius
+                ),
+            )
+            .expected(format!("a radius above {half} m"))
+            .help("the radius reaches to the belt's centre line; with `contact.surface = \"face\"` it is that of the pulley itself"),
+        );
+    }
+}
+
 /// A driver has a prescribed motion; any other pulley turns by its inertia and torque.
 fn motion(pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
     if pulley.speed.is_some() && pulley.angle.is_some() {
@@ -321,6 +351,11 @@ fn motion(pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
     for (field, given) in profiles {
         if let Some(given) = given {
             profile(given, &path.field(field), problems);
+        }
+    }
+    if let Some(moved) = &pulley.displacement {
+        for (axis, given) in [("x", &moved.x), ("y", &moved.y), ("z", &moved.z)] {
+            profile(given, &path.field("displacement").field(axis), problems);
         }
     }
 }

@@ -46,7 +46,7 @@ pub(crate) struct Field {
 }
 
 /// Least and greatest value; the second of each pair says whether it is excluded.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Bounds {
     pub least: Option<(f64, bool)>,
     pub greatest: Option<(f64, bool)>,
@@ -87,7 +87,10 @@ impl Shape {
                 last => Self::Either(shapes.into_iter().chain(last).collect()),
             };
         }
-        match schema["type"].as_str() {
+        // TOML has no null: a table that may be absent has it as its other type.
+        let kinds = schema["type"].as_array().into_iter().flatten();
+        let present = kinds.filter_map(Value::as_str).find(|kind| *kind != "null");
+        match schema["type"].as_str().or(present) {
             Some("integer") => Self::Count(Bounds::read(schema)),
             Some("boolean") => Self::Flag,
             Some("string") => Self::Text,
@@ -161,9 +164,13 @@ impl Shape {
                 dimension.unit,
                 dimension.example
             ),
-            Self::Count(bounds) => match bounds.least {
-                Some((least, _)) => format!("a whole number of at least {least}"),
-                None => "a whole number".to_owned(),
+            Self::Count(bounds) => match (bounds.least, bounds.greatest) {
+                (Some((least, _)), Some((most, _))) => {
+                    format!("a whole number from {least} to {most}")
+                }
+                (Some((least, _)), None) => format!("a whole number of at least {least}"),
+                (None, Some((most, _))) => format!("a whole number of at most {most}"),
+                (None, None) => "a whole number".to_owned(),
             },
             Self::Flag => "true or false".to_owned(),
             Self::Text => "text in quotes".to_owned(),

@@ -31,33 +31,33 @@ pub struct ProfileRow {
 impl BeltSurvey {
     /// Every integration point, in order of material coordinate.
     pub fn profile(&self, time: f64, element_start: &[f64], names: &[String]) -> Vec<ProfileRow> {
-        self.points
+        self.stations
+            .points
             .iter()
-            .zip(&self.samples)
-            .map(|(point, sample)| {
-                let stretch = sample.stretch;
+            .map(|point| {
+                let stretch = point.stretch;
                 let mut row = ProfileRow {
                     time,
                     material_coordinate: element_start[point.element]
-                        + point.xi * self.element_length[point.element],
+                        + point.xi * self.stations.element_length[point.element],
                     x: point.position[0],
                     y: point.position[1],
-                    z: 0.0,
-                    tension: sample.tension,
+                    z: point.position[2],
+                    tension: point.tension,
                     element_tension: self.element_tension[point.element],
                     strain_green: 0.5 * (stretch * stretch - 1.0),
                     strain_engineering: stretch - 1.0,
                     strain_true: 1.0 - 1.0 / stretch,
                     strain_almansi: 0.5 * (1.0 - 1.0 / (stretch * stretch)),
-                    jacobian: sample.jacobian,
-                    speed: sample.speed,
+                    jacobian: point.jacobian,
+                    speed: point.speed,
                     ..ProfileRow::default()
                 };
-                if let Some((p, contact)) = point.contact {
-                    row.normal_force = contact.normal_force;
-                    row.friction_force = contact.friction_force;
-                    row.slip_speed = contact.slip;
-                    row.pulley.clone_from(&names[p]);
+                if let Some(touch) = point.touch {
+                    row.normal_force = touch.normal_force;
+                    row.friction_force = touch.friction_force;
+                    row.slip_speed = touch.slip;
+                    row.pulley.clone_from(&names[touch.pulley]);
                 }
                 row
             })

@@ -25,9 +25,12 @@ impl BeltSurvey {
     /// pulley has lost the belt, the spans beside it share one piece of belt.
     pub fn spans(&self, layout: &Layout, out: &mut [SpanState]) {
         let count = out.len();
-        let points = self.points.len();
+        let points = self.stations.points.len();
         out.fill(SpanState::default());
-        let on = |i: usize| self.points[i % points].contact.map(|(p, _)| p);
+        let on = |i: usize| {
+            let touch = self.stations.points[i % points].touch;
+            touch.map(|touch| touch.pulley)
+        };
         let Some(start) = (0..points).find(|i| on(*i).is_some()) else {
             for (span, out) in layout.spans.iter().zip(out) {
                 *out = self.span(0..points, span);
@@ -61,13 +64,11 @@ impl BeltSurvey {
         let mut state = SpanState::default();
         let mut length = 0.0;
         for i in range.clone() {
-            let (point, sample) = (
-                &self.points[i % self.points.len()],
-                &self.samples[i % self.samples.len()],
-            );
-            state.tension += point.weight * sample.tension;
-            state.strain += point.weight * (sample.stretch - 1.0);
-            state.speed += point.weight * sample.speed;
+            let points = &self.stations.points;
+            let point = &points[i % points.len()];
+            state.tension += point.weight * point.tension;
+            state.strain += point.weight * (point.stretch - 1.0);
+            state.speed += point.weight * point.speed;
             length += point.weight;
         }
         SpanState {
@@ -91,7 +92,8 @@ impl BeltSurvey {
         ];
         // Along and left of the span, from its middle.
         let seen = |i: usize| {
-            let [x, y] = self.points[i % self.points.len()].position;
+            let points = &self.stations.points;
+            let [x, y, _] = points[i % points.len()].position;
             let arm = [x - middle[0], y - middle[1]];
             (
                 arm[0] * along[0] + arm[1] * along[1],

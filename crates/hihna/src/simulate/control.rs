@@ -15,8 +15,8 @@ const REFERENCE_ACCURACY: f64 = 1.0e-3;
 /// by less than 1e-4 of it between them.
 const PREDICTION_TOLERANCE: f64 = 0.03;
 
-/// Largest step relative to `1 / omega` of the slowest swing, or of the fastest prescribed irregularity: its second-order dispersion
-/// `(omega h)² / 12` is 2e-4 then.
+/// Largest step relative to `1 / omega` of the slowest swing, or of the fastest prescribed irregularity: its
+/// second-order dispersion `(omega h)² / 12` is 2e-4 then.
 const SWING_STEP: f64 = 0.05;
 
 /// Surface speed of the fastest driver [m/s]; where nothing is driven, a hundredth of the belt's
@@ -88,6 +88,15 @@ pub(super) fn control(drive: &Drive, mounting: &Mounting) -> Control {
         .flatten()
         .flat_map(crate::profile::Profile::kinks)
         .collect();
+    // Where a hub changes its velocity at once, damping and friction of the contact jump.
+    let mut jumps: Vec<f64> = drive
+        .pulley
+        .iter()
+        .filter_map(|pulley| pulley.displacement.as_ref())
+        .flat_map(|hub| [&hub.x, &hub.y, &hub.z])
+        .flat_map(crate::profile::Profile::kinks)
+        .collect();
+    jumps.sort_by(f64::total_cmp);
     kinks.sort_by(f64::total_cmp);
     Control {
         method,
@@ -95,6 +104,7 @@ pub(super) fn control(drive: &Drive, mounting: &Mounting) -> Control {
         error_tolerance,
         newton_tolerance: 2.0e-7 * speed * (run.accuracy / REFERENCE_ACCURACY),
         kinks,
+        jumps,
     }
 }
 

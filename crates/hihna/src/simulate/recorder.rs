@@ -2,16 +2,18 @@
 
 use std::time::Duration;
 
-use ancf::dynamics::{Motion, Window};
+use ancf::dynamics::{Motion, Pace, Window};
+use ancf::element::Element;
 use ancf::statics::Settled;
-use ancf::system::Mechanics;
+use ancf::system::{Mechanics, System};
 
+use super::control::nominal_speed;
 use super::{Audit, StartState};
-use crate::assemble::{Assembly, BeltElementType};
+use crate::assemble::{Assembly, Mounting};
 use crate::drive::Drive;
 use crate::history::History;
 use crate::layout::Layout;
-use crate::observe::{BeltSystem, Observer, Powers, ProfileRow, PulleyState, SpanState, Stored};
+use crate::observe::{Observer, Powers, ProfileRow, PulleyLaw, PulleyState, SpanState, Stored};
 
 /// A pulley that hardly takes a torque is judged by this part of the tension at rest times its radius: what
 /// accuracy means for the drive as a whole.
@@ -37,7 +39,13 @@ pub(super) struct Recorder {
     /// Powers at the last accepted state and work since the start.
     powers: Powers,
     work: Powers,
+    residual: f64,
     largest_residual: f64,
+    /// Time of the last accepted state [s].
+    last_time: f64,
+    /// Kinetic energy at nominal speed and strain energy at rest [J].
+    held: f64,
+    tolerance: f64,
     /// Mean tension at rest [N].
     rest_tension: f64,
     /// For each pulley: torque last, its integral, the integral of its magnitude, first speed, now.
@@ -54,7 +62,7 @@ struct Momentum {
 }
 
 impl Recorder {
-    pub fn new<E: BeltElementType>(drive: &Drive, assembly: &Assembly<E>) -> Self {
+    pub fn new<E: Element, L: PulleyLaw<E>>(drive: &Drive, assembly: &Assembly<E, L>) -> Self {
         let names: Vec<String> = drive.pulley.iter().map(|p| p.name.clone()).collect();
         let inertias: Vec<f64> = drive.pulley.iter().map(|p| p.inertia).collect();
         let end = drive.run.end_time;
@@ -70,7 +78,7 @@ impl Recorder {
             recording: Duration::ZERO,
             pulleys: vec![PulleyState::default(); names.len()],
             spans: vec![SpanState::default(); names.len()],
-            history: History::new(&names),
+            history: History::new(&names, drive.belt.element.is_spatial()),
             profile: Vec::new(),
             state: assembly.motion.clone(),
             output_times: output_times(end, drive.run.output_interval),
@@ -80,16 +88,21 @@ impl Recorder {
             initial: Stored::default(),
             powers: Powers::default(),
             work: Powers::default(),
+            residual: 0.0,
             largest_residual: 0.0,
+            last_time: 0.0,
+            held: 0.0,
+            tolerance: 0.1 * drive.run.accuracy,
             rest_tension: 0.0,
             momenta: vec![Momentum::default(); names.len()],
         }
     }
 
     /// Observes the state before the first step.
-    pub fn start<E: BeltElementType>(
+    pub fn start<E: Element, L: PulleyLaw<E>>(
         &mut self,
-        assembly: &Assembly<E>,
+        drive: &Drive,
+        assembly: &Assembly<E, L>,
         settled: Settled,
     ) -> StartState {
         let system = &assembly.system;
@@ -98,6 +111,7 @@ impl Recorder {
         system.prescribe(begun.time, &mut begun.q, &mut begun.v, &mut begun.a);
         self.observer.survey(system, &begun);
         self.initial = self.observer.stored(system, &begun);
+        self.held = self.initial.strain + kinetic_at_nominal_speed(drive, &assembly.mounting);
         self.powers = self.observer.powers(system, &begun);
         for (p, momentum) in self.momenta.iter_mut().enumerate() {
             let (speed, torque) = self.observer.momentum(system, &begun, p);
@@ -113,11 +127,25 @@ impl Recorder {
         }
     }
 
-    /// Takes the step of `window` in: balances first, then rows at the output times within it.
-    pub fn step<E: BeltElementType>(&mut self, system: &BeltSystem<E>, window: Window<'_>) {
+    /// Takes the step of `window` in: balances first, then rows at the output times within it. Returns the
+    /// pace that keeps the energy balance.
+    pub fn step<E: Element, L: PulleyLaw<E>>(
+        &mut self,
+        system: &System<E, L>,
+        window: Window<'_>,
+    ) -> Pace {
         let (t0, t1) = (window.from.time, window.to.time);
         let step = t1 - t0;
 
+        if t0 > self.last_time {
+            // Forces have jumped since the last step.
+            self.observer.look(system, window.from);
+            self.powers = self.observer.powers(system, window.from);
+            for (p, momentum) in self.momenta.iter_mut().enumerate() {
+                momentum.torque = self.observer.momentum(system, window.from, p).1;
+            }
+        }
+        self.last_time = t1;
         // The trapezoidal rule is of second order as the schemes are. Simpson's rule on interpolated
         // states left forty times the residual on the base case, probably because accelerations carry
         // the noise of fast modes into velocities interpolated with them.
@@ -143,6 +171,8 @@ impl Recorder {
 
         let stored = self.observer.stored(system, window.to);
         let residual = self.residual(&stored, &self.work);
+        let pace = self.pace(residual);
+        self.residual = residual;
         self.largest_residual = self.largest_residual.max(residual.abs());
 
         let slack = 1.0e-9 * step;
@@ -150,7 +180,7 @@ impl Recorder {
         if !due(&self.output_times, self.next_output)
             && !due(&self.profile_times, self.next_profile)
         {
-            return;
+            return pace;
         }
         let cpu = cpu_time::ThreadTime::now();
         let mut state = std::mem::replace(&mut self.state, Motion::zero(0));
@@ -169,9 +199,28 @@ impl Recorder {
         }
         self.state = state;
         self.recording += cpu.elapsed();
+        pace
     }
 
-    fn row<E: BeltElementType>(&mut self, system: &BeltSystem<E>, state: &Motion, work: &Powers) {
+    /// Shorter steps while more than half of the tolerated energy is missing and the balance goes on
+    /// worsening. What the drive holds at nominal speed counts as turned over, as every work has a start.
+    fn pace(&self, residual: f64) -> Pace {
+        let allowed = 0.5 * self.tolerance * (self.work.turnover + self.held);
+        if residual.abs() > allowed && residual.abs() > self.residual.abs() {
+            Pace::Finer
+        } else if residual.abs() > 0.8 * allowed {
+            Pace::Hold
+        } else {
+            Pace::Free
+        }
+    }
+
+    fn row<E: Element, L: PulleyLaw<E>>(
+        &mut self,
+        system: &System<E, L>,
+        state: &Motion,
+        work: &Powers,
+    ) {
         self.observer.survey(system, state);
         self.observer.pulleys(system, state, &mut self.pulleys);
         let stored = self.observer.stored(system, state);
@@ -214,9 +263,20 @@ impl Recorder {
             turnover: self.work.turnover,
             energy_residual: self.largest_residual / scale,
             torque_residual,
-            tolerance: 0.1 * drive.run.accuracy,
+            tolerance: self.tolerance,
         }
     }
+}
+
+/// Kinetic energy [J] of belt and pulleys without slip at the speed of the fastest driver.
+fn kinetic_at_nominal_speed(drive: &Drive, mounting: &Mounting) -> f64 {
+    let belt = &drive.belt;
+    let rotors = drive
+        .pulley
+        .iter()
+        .map(|p| p.inertia / (p.radius * p.radius));
+    let mass = belt.density * belt.width * belt.thickness * mounting.length + rotors.sum::<f64>();
+    0.5 * mass * nominal_speed(drive).powi(2)
 }
 
 /// Multiples of `interval` from zero, and the end.

@@ -22,7 +22,8 @@
 macro_rules! with_belt_element {
     ($drive:expr, $element:ident => $body:expr) => {
         match $drive.belt.element {
-            $crate::drive::BeltElement::BeltBeam => {
+            // Plates are refused before an element is made.
+            $crate::drive::BeltElement::BeltBeam | $crate::drive::BeltElement::Plate => {
                 type $element = ancf::element::BeltBeam2;
                 $body
             }
@@ -334,8 +335,9 @@ impl<E: BeltElementType> RunningBelt<E> {
         let mut seen = Motion::zero(chain + pulleys);
         seen.q[..chain].copy_from_slice(&z[..chain]);
         seen.v[chain..].copy_from_slice(&z[chain..chain + pulleys]);
+        let laws = &self.equations.contact.pulleys;
         self.observer
-            .take_points(system, &z[..chain], points, contacts);
+            .take_points(mesh, laws, &z[..chain], &points, contacts);
         let mut states = vec![PulleyState::default(); pulleys];
         self.observer.pulleys(system, &seen, &mut states);
         let mut spans = vec![SpanState::default(); pulleys];

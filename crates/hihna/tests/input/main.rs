@@ -8,6 +8,7 @@ mod fields;
 mod overrides;
 mod properties;
 mod rules;
+mod spatial;
 
 use hihna::drive::{AutoStep, Drive, Step};
 use hihna::input::{self, Override};

@@ -1,8 +1,9 @@
 //! Properties of reading and writing drives: what is written reads back bit for bit, and no text panics.
 
 use hihna::drive::{
-    AutoStep, Belt, BeltElement, Contact, Drive, Friction, Harmonic, Integrator, Joint, Pulley,
-    Run, Start, Step, Surface, Wrap,
+    AutoStep, Belt, BeltElement, Contact, Displacement, Drive, Friction, FrictionDirections,
+    Harmonic, Integration, Integrator, Joint, PlateBending, Pulley, Run, Start, Step, Surface,
+    Wrap,
 };
 use hihna::input::{self, Override};
 use hihna::layout::Layout;
@@ -83,6 +84,8 @@ fn belt() -> impl Strategy<Value = Belt> {
             )| Belt {
                 element: BeltElement::BeltBeam,
                 elements,
+                elements_across: 1,
+                bending: PlateBending::Standard,
                 length: (tightness == 0).then_some(tight),
                 tension: (tightness == 1).then_some(tight),
                 strain: (tightness == 2).then_some(tight),
@@ -125,6 +128,12 @@ fn contact() -> impl Strategy<Value = Contact> {
                     Surface::CentreLine
                 },
                 points,
+                integration: if flag {
+                    Integration::Trapezoidal
+                } else {
+                    Integration::Gauss
+                },
+                friction_directions: FrictionDirections::Circumferential,
                 clamp_normal_force: flag,
             },
         )
@@ -169,6 +178,20 @@ fn pulleys() -> impl Strategy<Value = Vec<Pulley>> {
                     name: format!("pulley_{i}"),
                     center: [10.0 * angle.cos(), 10.0 * angle.sin()],
                     radius,
+                    displacement: flag.then_some(Displacement {
+                        x: Profile::Varying(Varying::HalfCosine {
+                            from: 0.0,
+                            to: radius,
+                            start: 0.0,
+                            end: inertia,
+                        }),
+                        y: Profile::Constant(0.0),
+                        z: Profile::Constant(0.0),
+                    }),
+                    offset: 0.0,
+                    tilt: [0.0; 2],
+                    taper: 0.0,
+                    crown: None,
                     wrap: if crossed && count == 2 && i == 1 {
                         Wrap::Outside
                     } else {
@@ -238,6 +261,7 @@ fn run() -> impl Strategy<Value = Run> {
             } else {
                 Vec::new()
             },
+            profile_line: part,
         },
     )
 }
@@ -257,9 +281,10 @@ fn drive() -> impl Strategy<Value = Drive> {
             if contact.surface == Surface::Face {
                 belt.thickness = 1.0e-6;
             }
+            let smallest = pulley.iter().fold(f64::INFINITY, |r, p| r.min(p.radius));
+            belt.thickness = belt.thickness.min(smallest);
             tighten(&mut belt, &pulley, 0.99 * strain);
             // An element turns by less than half a turn around the smallest pulley.
-            let smallest = pulley.iter().fold(f64::INFINITY, |r, p| r.min(p.radius));
             let path = Layout::new(&pulley).map_or(0.0, |layout| layout.length);
             #[expect(
                 clippy::cast_possible_truncation,

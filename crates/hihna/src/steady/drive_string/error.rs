@@ -56,6 +56,17 @@ pub enum SteadyError {
         /// The time [s].
         time: f64,
     },
+    /// The belt is one of plates.
+    #[error("steady running of the finite elements is there for planar elements only")]
+    Spatial,
+    /// A pulley is moved.
+    #[error(
+        "pulley \"{pulley}\" has a `displacement`: steady running of the finite elements needs fixed centres"
+    )]
+    Displaced {
+        /// Name of the pulley.
+        pulley: String,
+    },
     /// Friction remembers.
     #[error(
         "friction of law `elastic-plastic` on pulley \"{pulley}\" remembers displacements, which steady running of the finite elements does not take into account"
@@ -140,6 +151,14 @@ impl SteadyError {
             Self::Irregular { pulley } => (
                 of_pulley(pulley).field("irregularity"),
                 "drop it, or let `hihna run` step through time",
+            ),
+            Self::Spatial => (
+                FieldPath::default().field("belt").field("element"),
+                "take `belt-beam`, or let `hihna run` step through time",
+            ),
+            Self::Displaced { pulley } => (
+                of_pulley(pulley).field("displacement"),
+                "give the `center` where it ends",
             ),
             Self::Remembers { .. } => (
                 FieldPath::default().field("contact").field("friction"),

@@ -1,7 +1,10 @@
 //! Drives in, names and signs out.
 
 use super::*;
-use crate::drive::{Belt, BeltElement, Contact, Friction, Joint, Run, Surface, Wrap};
+use crate::drive::{
+    Belt, BeltElement, Contact, Friction, FrictionDirections, Integration, Joint, PlateBending,
+    Run, Surface, Wrap,
+};
 use crate::steady::string::Running;
 
 /// The closure is solved to 1e-12; sums of a dozen terms.
@@ -20,6 +23,11 @@ fn pulley(name: &str, center: [f64; 2], radius: f64) -> Pulley {
         load: None,
         irregularity: Vec::new(),
         groove_angle: None,
+        displacement: None,
+        offset: 0.0,
+        tilt: [0.0; 2],
+        taper: 0.0,
+        crown: None,
     }
 }
 
@@ -30,6 +38,8 @@ fn drive(tension: f64, youngs_modulus: f64, pulley: Vec<Pulley>) -> Drive {
         belt: Belt {
             element: BeltElement::BeltBeam,
             elements: 20,
+            elements_across: 1,
+            bending: PlateBending::Standard,
             length: None,
             tension: Some(tension),
             strain: None,
@@ -54,6 +64,8 @@ fn drive(tension: f64, youngs_modulus: f64, pulley: Vec<Pulley>) -> Drive {
             back_friction: None,
             surface: Surface::CentreLine,
             points: 7,
+            integration: Integration::Gauss,
+            friction_directions: FrictionDirections::Circumferential,
             clamp_normal_force: false,
         },
         pulley,

@@ -121,6 +121,7 @@ impl Passage<'_> {
     #[inline]
     pub fn contact(&self, xi: f64) -> PointContact<f64> {
         let meeting = Meeting {
+            center: self.pulley.center,
             r: self.line.position(xi),
             v: self.line.slope(xi).map(|s| self.circulation * s),
             speed: self.speed,

@@ -160,6 +160,13 @@ impl<E: BeltElementType> RunningBelt<E> {
 
 /// The speeds that `drive` ends with, of the pulleys that have one.
 fn prescribed_speeds(drive: &Drive) -> Result<Vec<Option<f64>>, SteadyError> {
+    if drive.belt.element.is_spatial() {
+        return Err(SteadyError::Spatial);
+    }
+    if let Some(moving) = drive.pulley.iter().find(|p| p.displacement.is_some()) {
+        let pulley = moving.name.clone();
+        return Err(SteadyError::Displaced { pulley });
+    }
     if drive.belt.damping_time > 0.0 {
         return Err(SteadyError::Damped {
             time: drive.belt.damping_time,

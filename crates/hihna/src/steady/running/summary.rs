@@ -247,6 +247,7 @@ fn steady(drive: &Drive, outcome: &Outcome, running: &Running) -> Steady {
     let pulley: Vec<_> = pulleys
         .map(|((pulley, arc), state)| {
             let report = PulleyReport {
+                lateral: None,
                 speed: state.speed,
                 torque: state.torque,
                 external_torque: state.external_torque,
