@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use hihna::input::{InputError, InputErrors};
 use hihna::record::RecordError;
 use hihna::simulate::RunError;
+use hihna::steady::running::RunningError;
 use hihna::steady::string::StringError;
 use hihna::validate::{CatalogueError, UnknownCase};
 use hihna_report::ReportError;
@@ -36,6 +37,9 @@ pub enum Failure {
     /// The steady state was not found; not known to happen.
     #[error(transparent)]
     Steady(StringError),
+    /// The steady state of the finite elements was not found.
+    #[error(transparent)]
+    Running(RunningError),
     /// The result folder cannot be made; nothing was run.
     #[error(transparent)]
     Folder(RecordError),
@@ -91,6 +95,7 @@ impl Failure {
             | Self::Folder(_)
             | Self::UnknownCase(_)
             | Self::Report(ReportError::Read(_))
+            | Self::Running(RunningError::Assembly(_))
             | Self::Run(RunError::Assembly(_)) => ExitCode::from(2),
             _ => ExitCode::from(1),
         }
@@ -149,6 +154,9 @@ impl Failure {
             Self::Report(ReportError::Read(_)) => "name a folder that `hihna run` has written",
             Self::Steady(_) => {
                 "check stiffness, tension and torques of the drive for slips of the decimal point"
+            }
+            Self::Running(RunningError::NotFound { .. }) => {
+                "run slower or tighten the belt if it lifts off its pulleys; otherwise try more `belt.elements` or a gentler friction law"
             }
             Self::Record(_) => {
                 "nothing was kept; free some space or name another place with --out, then run again"

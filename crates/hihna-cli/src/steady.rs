@@ -1,4 +1,4 @@
-//! `hihna steady`: what a drive settles to, by the extensible string with inertia.
+//! `hihna steady`: what a drive settles to, by the extensible string with inertia or by finite elements.
 
 use std::path::PathBuf;
 
@@ -14,6 +14,9 @@ use crate::diagnostics::{Failure, print_warning};
 use crate::drive_source::DriveSource;
 use crate::standard_output;
 
+mod elements;
+mod map;
+mod modes;
 mod sensitivity;
 mod summary;
 mod words;
@@ -23,22 +26,22 @@ use summary::Summary;
 /// Rows of `profile.csv`, about.
 const PROFILE_ROWS: usize = 500;
 
-/// Find what a drive settles to, by the theory of the extensible string, and print speeds, torques,
-/// tensions, slip and efficiency.
+/// Find what a drive settles to, by the theory of the extensible string or by finite elements, and
+/// print speeds, torques, tensions, slip and efficiency.
 ///
-/// Speeds and torques are those that the profiles of the drive file end with. Bending, contact
-/// stiffness and gravity play no part, and of the friction law only the coefficient. A drive that
-/// slips as a whole or goes slack is an answer, too: the exit status is 0.
+/// Speeds and torques are those that the profiles of the drive file end with. For the string bending,
+/// contact stiffness and gravity play no part, and of the friction law only the coefficient. A drive
+/// that slips as a whole or goes slack is an answer, too: the exit status is 0.
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
     source: DriveSource,
 
-    /// Which inertia of the belt counts
+    /// Which theory: the string with some of the belt's inertia, or finite elements
     #[arg(long, value_enum, default_value_t = ModelName::Full)]
     model: ModelName,
 
-    /// What stays as it is when the belt starts to run
+    /// Of the string, what stays as it is when the belt starts to run
     #[arg(long, value_enum, default_value_t = ClosureName::Length)]
     closure: ClosureName,
 
@@ -46,6 +49,15 @@ pub struct Arguments {
     /// `belt.length,pulley.driven.radius`
     #[arg(long, value_name = "KEY", value_delimiter = ',')]
     sensitivity: Vec<String>,
+
+    /// With `--model fe`: print the first K modes of spans and drive about the running state
+    #[arg(long, value_name = "K", default_value_t = 0, hide_default_value = true, value_parser = clap::value_parser!(u16).range(..=100), conflicts_with = "map")]
+    modes: u16,
+
+    /// With `--model fe`: solve the drive at every combination of values of two or more fields, such as
+    /// `pulley.driven.torque=-1:-20:20`. May be given several times
+    #[arg(long, value_name = "KEY=FROM:TO:COUNT", conflicts_with = "sensitivity")]
+    map: Vec<String>,
 
     /// Folder for drive.toml, summary.json and, of a drive that runs, profile.csv [default: no files]
     #[arg(long, value_name = "DIR")]
@@ -70,8 +82,7 @@ enum ModelName {
     Centrifugal,
     /// None: the classical capstan equation with a creeping belt
     Capstan,
-    /// Steady running of the finite elements, not there yet.
-    #[value(hide = true)]
+    /// The finite elements of `hihna run`, without stepping through time
     Fe,
 }
 
@@ -87,11 +98,23 @@ enum ClosureName {
 
 /// Solves, records and tells.
 pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
-    let model = arguments.model.model()?;
+    let Some(model) = arguments.model.string() else {
+        return if arguments.map.is_empty() {
+            elements::steady(arguments)
+        } else {
+            map::steady(arguments)
+        };
+    };
     let closure = match arguments.closure {
         ClosureName::Length => Closure::UnstretchedLength,
         ClosureName::TensionSum => Closure::TensionSum,
     };
+    if !arguments.map.is_empty() || arguments.modes > 0 {
+        return Err(Failure::Argument {
+            message: "`--map` and `--modes` are there for the finite elements only".into(),
+            help: "add `--model fe`".into(),
+        });
+    }
     let file = arguments.source.open()?;
     let drive = &file.drive;
     let wrong = |error: SteadyError| failure(&error, &file);
@@ -160,15 +183,13 @@ fn failure(error: &SteadyError, file: &DriveFile) -> Failure {
 }
 
 impl ModelName {
-    fn model(self) -> Result<Model, Failure> {
+    /// The string's model of this name.
+    fn string(self) -> Option<Model> {
         match self {
-            Self::Full => Ok(Model::Full),
-            Self::Centrifugal => Ok(Model::Centrifugal),
-            Self::Capstan => Ok(Model::Capstan),
-            Self::Fe => Err(Failure::Argument {
-                message: "the model `fe`, steady running of the finite elements, is not available in this version".into(),
-                help: "the models of this version are `full`, `centrifugal` and `capstan`; `hihna run` steps the finite elements through time until they run steadily".into(),
-            }),
+            Self::Full => Some(Model::Full),
+            Self::Centrifugal => Some(Model::Centrifugal),
+            Self::Capstan => Some(Model::Capstan),
+            Self::Fe => None,
         }
     }
 

@@ -474,17 +474,6 @@ fn sensitivities_predict_a_changed_drive() {
 #[test]
 fn bad_arguments_have_status_two() {
     let folder = TempDir::new().unwrap();
-    let (stdout, message) = told(folder.path(), &["--model", "fe"], 2);
-    assert_eq!(stdout, "");
-    for part in [
-        "not available in this version",
-        "`full`, `centrifugal` and `capstan`",
-    ] {
-        assert!(message.contains(part), "{part}: {message}");
-    }
-    let (stdout, _) = told(folder.path(), &["--model", "fe", "--json"], 2);
-    let errors: Value = serde_json::from_str(&stdout).unwrap();
-    assert!(errors["errors"][0]["help"].is_string());
     let cases: [&[&str]; 5] = [
         &["--model", "fem"],
         &["--closure", "none"],
@@ -504,4 +493,52 @@ fn gravity_is_said_to_play_no_part() {
     let folder = TempDir::new().unwrap();
     let (_, message) = told(folder.path(), &["--set", "gravity=[0.0, -9.81]"], 0);
     assert!(message.contains("gravity plays no part"), "{message}");
+}
+
+/// The finite elements: the same answers as a time run writes, and the capacity.
+#[test]
+fn finite_elements() {
+    let folder = TempDir::new().unwrap();
+    let load = [
+        "--set",
+        "pulley.driven.torque=-1",
+        "--set",
+        "contact.friction.coefficient=0.3",
+    ];
+    let fe = ["--model", "fe", "--set", "belt.elements=60"];
+    let found = object(
+        folder.path(),
+        &[&fe[..], &load, &["--out", "result"]].concat(),
+    );
+    assert_eq!(found["answer"], "running");
+    let speed = number(&found["steady"]["pulley"]["driven"]["speed"]);
+    assert!((speed - 11.98242).abs() < 1.0e-5, "{speed}");
+    let safety = number(&found["capacity"]["factor"]);
+    assert!(safety > 1.9 && safety < 2.0, "{safety}");
+    assert_eq!(found["audit"]["passed"], true);
+    assert_eq!(
+        names(&folder.path().join("result")),
+        ["drive.toml", "profile.csv", "summary.json"]
+    );
+    let (table, _) = told(folder.path(), &[&fe[..], &load].concat(), 0);
+    for part in [
+        "60 graded elements",
+        "Power residual",
+        "Safety against gross slip",
+    ] {
+        assert!(table.contains(part), "{part}: {table}");
+    }
+    let slips = object(
+        folder.path(),
+        &[&fe[..], &["--set", "pulley.driven.torque=-20"]].concat(),
+    );
+    assert_eq!(slips["answer"], "gross-slip");
+    assert!(slips["steady"].is_null());
+    assert!(number(&slips["gross_slip"]["overload"]) > 1.0);
+    let (_, message) = told(
+        folder.path(),
+        &[&fe[..], &["--set", "pulley.driver.speed=0"]].concat(),
+        2,
+    );
+    assert!(message.contains("needs one that turns"), "{message}");
 }

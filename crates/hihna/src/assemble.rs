@@ -257,13 +257,34 @@ impl<E: BeltElementType> Assembly<E> {
         let count = belt.elements;
         let length = mounting.length / count as f64;
         let mesh = Mesh::closed(vec![E::for_belt(belt, length); count]);
+        let starts: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
         Ok(Self {
             system: system(drive, &layout, mesh),
-            motion: on_path::<E>(drive, &layout, &mounting),
+            motion: on_path::<E>(drive, &layout, &mounting, &starts),
             warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),
+        })
+    }
+
+    /// Puts `drive` together from elements that begin at the parts `starts` of the belt, rising from 0.
+    pub fn graded(drive: &Drive, starts: &[f64]) -> Result<Self, AssemblyError> {
+        let belt = &drive.belt;
+        let layout = Layout::of(drive)?;
+        let mounting = Mounting::new(belt, &layout)?;
+        closable(drive, &mounting)?;
+        let ends = starts.iter().skip(1).chain(std::iter::once(&1.0));
+        let elements = (starts.iter().zip(ends))
+            .map(|(from, to)| E::for_belt(belt, (to - from) * mounting.length))
+            .collect();
+        Ok(Self {
+            system: system(drive, &layout, Mesh::closed(elements)),
+            motion: on_path::<E>(drive, &layout, &mounting, starts),
+            warnings: Vec::new(),
+            element_start: starts.iter().map(|s| s * mounting.length).collect(),
+            layout,
+            mounting,
         })
     }
 
@@ -346,15 +367,18 @@ fn rule(contact: &Contact) -> Rule {
     }
 }
 
-/// The belt evenly stretched on its path, at rest.
-fn on_path<E: LineElement>(drive: &Drive, layout: &Layout, mounting: &Mounting) -> Motion {
-    let count = drive.belt.elements;
-    let chain = count * E::NODE_DOF;
+/// The belt evenly stretched on its path, at rest, its nodes at the parts `starts` of it.
+fn on_path<E: LineElement>(
+    drive: &Drive,
+    layout: &Layout,
+    mounting: &Mounting,
+    starts: &[f64],
+) -> Motion {
+    let chain = starts.len() * E::NODE_DOF;
     let mut motion = Motion::zero(chain + drive.pulley.len());
     let across = 2 * E::SECTION_VECTORS[0];
-    for (i, node) in motion.q[..chain].chunks_exact_mut(E::NODE_DOF).enumerate() {
-        let s = drive.belt.first_node + mounting.path * i as f64 / count as f64;
-        let place = layout.point(s);
+    for (start, node) in starts.iter().zip(motion.q.chunks_exact_mut(E::NODE_DOF)) {
+        let place = layout.point(drive.belt.first_node + mounting.path * start);
         let [tx, ty] = place.tangent;
         node[0..2].copy_from_slice(&place.position);
         if E::CENTRE_VECTORS.len() == 4 {

@@ -36,13 +36,13 @@ use ancf::quadrature::Rule;
 use ancf::scalar::dispatch;
 use ancf::system::{ForceLaw, State};
 
+pub(crate) use point::Meeting;
 pub use point::PointContact;
 
 use crate::drive::Displacement;
 use crate::friction::Law;
 use crate::load::ExternalTorque;
 use memory::Bristles;
-use point::Meeting;
 use table::{LANES, Line, MAX_VECTORS, Table};
 
 /// A pulley as the contact sees it.

@@ -27,6 +27,28 @@ pub struct Drive {
     /// The time run.
     #[serde(default)]
     pub run: Run,
+    /// Steady running of the finite elements.
+    #[serde(default)]
+    pub steady: Steady,
+}
+
+/// How the finite elements of a steadily running belt are laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Steady {
+    /// How the elements share the belt.
+    pub mesh: SteadyMesh,
+}
+
+/// How elements that stay in their places share the belt that runs through them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SteadyMesh {
+    /// Up to four times denser where the belt runs on and off the pulleys.
+    #[default]
+    Graded,
+    /// All of one length.
+    Uniform,
 }
 
 /// Kinds of belt elements.

@@ -55,6 +55,10 @@ pub trait FrictionLaw: Clone + fmt::Debug + Send + Sync {
         None
     }
 
+    /// How far a point is from the corner of the law where friction stops to follow the slip: positive
+    /// below it, zero at it, in the law's own unit. `None` for a law without a corner.
+    fn reserve(&self, slip: Slip<f64>, normal: f64) -> Option<f64>;
+
     /// The steepest rise of the force per length with the slip velocity [N s/m²] under a normal force
     /// per length `normal` [N/m]: it bounds the steps of explicit integrators.
     fn steepest_damping(&self, normal: f64) -> f64;
@@ -78,6 +82,10 @@ impl FrictionLaw for Frictionless {
             by_displacement: S::zero(),
             by_normal: S::zero(),
         }
+    }
+
+    fn reserve(&self, _: Slip<f64>, _: f64) -> Option<f64> {
+        None
     }
 
     fn steepest_damping(&self, _: f64) -> f64 {
@@ -140,6 +148,36 @@ impl Law {
         }
     }
 
+    /// The law with `grip` times its coefficients of friction and a rise with the slip `softness` times
+    /// less steep (what remembers keeps its stiffness): the way to it from an easier one.
+    #[must_use]
+    pub fn eased(&self, grip: f64, softness: f64) -> Self {
+        match *self {
+            Self::Frictionless(law) => Self::Frictionless(law),
+            Self::CreepRate(CreepRate { coefficient, slope }) => Self::CreepRate(CreepRate {
+                coefficient: coefficient * grip,
+                slope: slope / softness,
+            }),
+            Self::Coulomb(Coulomb {
+                coefficient,
+                velocity,
+            }) => Self::Coulomb(Coulomb {
+                coefficient: coefficient * grip,
+                velocity: velocity * grip * softness,
+            }),
+            Self::Stribeck(law) => Self::Stribeck(Stribeck {
+                static_coefficient: law.static_coefficient * grip,
+                sliding_coefficient: law.sliding_coefficient * grip,
+                stribeck_velocity: law.stribeck_velocity * grip * softness,
+                velocity: law.velocity * grip * softness,
+            }),
+            Self::ElasticPlastic(law) => Self::ElasticPlastic(ElasticPlastic {
+                coefficient: law.coefficient * grip,
+                ..law
+            }),
+        }
+    }
+
     /// Whether the law remembers displacements.
     pub fn has_memory(&self) -> bool {
         self.elastic_limit(0.0).is_some()
@@ -167,6 +205,10 @@ impl FrictionLaw for Law {
 
     fn elastic_limit(&self, normal: f64) -> Option<f64> {
         each!(self, law => law.elastic_limit(normal))
+    }
+
+    fn reserve(&self, slip: Slip<f64>, normal: f64) -> Option<f64> {
+        each!(self, law => law.reserve(slip, normal))
     }
 
     fn steepest_damping(&self, normal: f64) -> f64 {

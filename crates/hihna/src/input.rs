@@ -15,6 +15,7 @@ use crate::drive::Drive;
 
 mod check;
 mod document;
+mod number_field;
 mod overrides;
 mod problem;
 mod rules;
@@ -22,6 +23,7 @@ mod shape;
 mod spatial;
 
 pub use document::{Place, Source};
+pub use number_field::{NumberField, NumberRefused, UnknownNumber};
 pub use overrides::Override;
 pub(crate) use problem::nearest;
 pub use problem::{FieldPath, InputError, InputErrors, Problem, Segment};

@@ -7,10 +7,11 @@ mod station;
 mod surface;
 
 use ancf::dynamics::Motion;
-use ancf::element::Element;
+use ancf::element::{Element, LineElement};
+use ancf::mesh::Mesh;
 use ancf::system::{Mechanics, State, System};
 
-use crate::contact::{Lateral, PulleyContact};
+use crate::contact::{BeltPoint, ContactPulley, Lateral, PulleyContact};
 use crate::layout::Layout;
 
 use belt::BeltSurvey;
@@ -144,6 +145,20 @@ impl Observer {
     pub fn survey<E: Element, L: PulleyLaw<E>>(&mut self, system: &System<E, L>, motion: &Motion) {
         self.look(system, motion);
         self.belt.take(system, motion);
+    }
+
+    /// Takes in the belt of `mesh` at `q` as seen at `points`, all around it in order, and by `contacts` what it does
+    /// to `pulleys`.
+    pub(crate) fn take_points<E: LineElement>(
+        &mut self,
+        mesh: &Mesh<E>,
+        pulleys: &[ContactPulley],
+        q: &[f64],
+        points: &[BeltPoint],
+        contacts: Vec<PulleyContact>,
+    ) {
+        self.contacts = contacts;
+        self.belt.take_points(mesh, pulleys, q, points);
     }
 
     /// Angle, speed and external torque of pulley `p` at `motion`, which was looked at last.

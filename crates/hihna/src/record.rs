@@ -216,7 +216,7 @@ fn check_free(place: &Path, overwrite: bool) -> Result<(), RecordError> {
 }
 
 /// Files that a result folder may hold, beside those of [`vtk`].
-const FILES: [&str; 7] = [
+const FILES: [&str; 9] = [
     "drive.toml",
     "summary.json",
     "history.csv",
@@ -224,6 +224,8 @@ const FILES: [&str; 7] = [
     "frames.csv",
     "belt.pvd",
     "report.html",
+    "map.csv",
+    "map.parquet",
 ];
 
 /// Whether `place` is a folder (no link to one) with nothing in it but results.

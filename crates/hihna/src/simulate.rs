@@ -23,6 +23,9 @@ pub use control::nominal_speed;
 use place::place;
 use recorder::Recorder;
 
+/// Correction, in smallest radii, at which the belt is at rest.
+const REST: f64 = 1.0e-10;
+
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
@@ -226,7 +229,7 @@ fn run<E: Element, L: PulleyLaw<E>>(
     let wall = Instant::now();
     let end = drive.run.end_time;
     let mut assembly = assemble()?;
-    let settled = settle_on_pulleys(drive, &mut assembly, observer)?;
+    let settled = settle_on_pulleys(drive, &mut assembly, REST, observer)?;
     release(&mut assembly)?;
     let control = control::control(drive, &assembly.mounting);
     let count = end / control.step;
@@ -319,10 +322,12 @@ fn run<E: Element, L: PulleyLaw<E>>(
     })
 }
 
-/// Moves the belt from its path to its equilibrium on the frictionless pulleys (see the guide).
-fn settle_on_pulleys<E: Element, L: PulleyLaw<E>>(
+/// Moves the belt from its path to its equilibrium on the frictionless pulleys (see the guide), to a correction below
+/// `accuracy` times the smallest radius.
+pub(crate) fn settle_on_pulleys<E: Element, L: PulleyLaw<E>>(
     drive: &Drive,
     assembly: &mut Assembly<E, L>,
+    accuracy: f64,
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Settled, RunError> {
     // The contact's own frequency sets how strongly the first steps are held back.
@@ -343,7 +348,7 @@ fn settle_on_pulleys<E: Element, L: PulleyLaw<E>>(
             shift: drive.contact.stiffness / drive.contact_mass(),
             shrink: 0.3,
             step_limit: 0.1 * smallest,
-            tolerance: 1.0e-10 * smallest,
+            tolerance: accuracy * smallest,
             max_iterations: 200,
         },
         &mut |_, _| match observer(&settling) {

@@ -2,4 +2,5 @@
 
 pub mod drive_string;
 pub mod profile;
+pub mod running;
 pub mod string;

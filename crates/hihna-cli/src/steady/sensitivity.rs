@@ -11,7 +11,7 @@ use crate::quantities::significant;
 use crate::tables::columns;
 
 /// Parts of results that the table leaves to `--json`: they say nothing that its rows do not.
-const LEFT_OUT: [&str; 7] = [
+const LEFT_OUT: [&str; 8] = [
     ".torque",
     ".power",
     ".stick_angle",
@@ -19,6 +19,7 @@ const LEFT_OUT: [&str; 7] = [
     ".friction_loss",
     ".pressing_tension",
     ".strain",
+    ".contact_angle",
 ];
 
 /// Elasticities below this are the round-off of terms that cancel; the table shows them as zero.
@@ -55,7 +56,7 @@ pub fn summary(
     Ok(found.map(|found| by_field(&found)))
 }
 
-fn by_field(found: &DriveSensitivity) -> SensitivitySummary {
+pub(super) fn by_field(found: &DriveSensitivity) -> SensitivitySummary {
     let fields = found.inputs.iter().map(|input| {
         let results = found.outputs.iter().enumerate().map(|(r, output)| {
             let change = Change {

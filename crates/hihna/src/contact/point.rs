@@ -7,7 +7,7 @@ use crate::friction::{FrictionLaw, Slip};
 
 /// Motion of a point of the belt and of the pulley it faces.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting<S> {
+pub(crate) struct Meeting<S> {
     /// Position r of the belt's point [m].
     pub r: [S; 2],
     /// Its velocity r' against the pulley's centre [m/s].
@@ -53,7 +53,7 @@ pub struct PointContact<S> {
 impl<S: Scalar> PointContact<S> {
     /// The contact of a point with a pulley.
     #[inline(always)]
-    pub(super) fn new(penalty: &Penalty, pulley: &ContactPulley, meeting: &Meeting<S>) -> Self {
+    pub(crate) fn new(penalty: &Penalty, pulley: &ContactPulley, meeting: &Meeting<S>) -> Self {
         let Meeting {
             r,
             v,
@@ -145,7 +145,7 @@ impl<S: Scalar> PointContact<S> {
 
     /// `-(gq d/dr + gv d/dv)` of force and torque, and the same by angle and speed of the pulley.
     #[inline(always)]
-    pub(super) fn tangent(&self, radius: f64, gq: f64, gv: f64) -> PointTangent<S> {
+    pub(crate) fn tangent(&self, radius: f64, gq: f64, gv: f64) -> PointTangent<S> {
         let n = self.normal;
         let t = [-n[1], n[0]];
         let (fn_, ft) = (self.normal_force, self.friction_force);
@@ -194,10 +194,13 @@ impl<S: Scalar> PointContact<S> {
 }
 
 /// Derivatives of [`PointContact`], signs and factors as the effective matrix wants them.
-pub(super) struct PointTangent<S> {
-    /// Row-major 2 x 2.
+pub(crate) struct PointTangent<S> {
+    /// By the position (times `gq`) and velocity (times `gv`) of the point, row-major 2 x 2.
     pub force: [S; 4],
+    /// By angle and speed of the pulley.
     pub force_by_pulley: [S; 2],
+    /// Of the torque on the pulley, by position and velocity.
     pub torque: [S; 2],
+    /// The same by angle and speed of the pulley.
     pub torque_by_pulley: S,
 }

@@ -32,6 +32,10 @@ impl FrictionLaw for Coulomb {
         }
     }
 
+    fn reserve(&self, slip: Slip<f64>, _: f64) -> Option<f64> {
+        Some(self.velocity - slip.velocity.abs())
+    }
+
     fn steepest_damping(&self, normal: f64) -> f64 {
         self.coefficient * normal / self.velocity
     }

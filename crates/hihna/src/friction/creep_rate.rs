@@ -31,6 +31,10 @@ impl FrictionLaw for CreepRate {
         }
     }
 
+    fn reserve(&self, slip: Slip<f64>, normal: f64) -> Option<f64> {
+        Some(self.coefficient * normal - self.slope * slip.velocity.abs())
+    }
+
     fn steepest_damping(&self, _: f64) -> f64 {
         self.slope
     }

@@ -44,6 +44,11 @@ impl FrictionLaw for ElasticPlastic {
         Some(self.coefficient * normal / self.stiffness)
     }
 
+    fn reserve(&self, slip: Slip<f64>, normal: f64) -> Option<f64> {
+        let stuck = self.stiffness * slip.displacement + self.damping * slip.velocity;
+        Some(self.coefficient * normal - stuck.abs())
+    }
+
     fn steepest_damping(&self, _: f64) -> f64 {
         self.damping
     }

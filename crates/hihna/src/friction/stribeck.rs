@@ -48,6 +48,10 @@ impl FrictionLaw for Stribeck {
         }
     }
 
+    fn reserve(&self, slip: Slip<f64>, _: f64) -> Option<f64> {
+        Some(self.velocity - slip.velocity.abs())
+    }
+
     fn steepest_damping(&self, normal: f64) -> f64 {
         self.static_coefficient.max(self.sliding_coefficient) * normal / self.velocity
     }

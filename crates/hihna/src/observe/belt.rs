@@ -1,10 +1,12 @@
 //! The belt point by point, and what lies on each pulley.
 
 use ancf::dynamics::Motion;
-use ancf::element::Element;
+use ancf::element::{Element, LineElement};
+use ancf::mesh::Mesh;
 use ancf::system::System;
 
-use super::station::{PulleyLaw, Stations};
+use super::station::{PulleyLaw, Stations, stations_at};
+use crate::contact::{BeltPoint, ContactPulley};
 
 /// The belt on one pulley.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,8 +27,24 @@ pub(super) struct BeltSurvey {
 
 impl BeltSurvey {
     pub fn take<E: Element, L: PulleyLaw<E>>(&mut self, system: &System<E, L>, motion: &Motion) {
-        let stations = &mut self.stations;
-        system.law.stations(system.mesh(), motion, stations);
+        (system.law).stations(system.mesh(), motion, &mut self.stations);
+        self.sum_tensions();
+    }
+
+    /// Takes in the belt of `mesh` at `q` as seen at `points`.
+    pub fn take_points<E: LineElement>(
+        &mut self,
+        mesh: &Mesh<E>,
+        pulleys: &[ContactPulley],
+        q: &[f64],
+        points: &[BeltPoint],
+    ) {
+        stations_at(mesh, pulleys, q, points, &mut self.stations);
+        self.sum_tensions();
+    }
+
+    fn sum_tensions(&mut self) {
+        let stations = &self.stations;
         self.element_tension.clear();
         self.element_tension
             .resize(stations.element_length.len(), 0.0);

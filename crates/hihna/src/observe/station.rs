@@ -7,7 +7,7 @@ use ancf::system::{ForceLaw, State};
 
 use super::state;
 use super::surface::SectionTables;
-use crate::contact::{BeltContact, BeltPoint, PulleyContact};
+use crate::contact::{BeltContact, BeltPoint, ContactPulley, PulleyContact};
 use crate::load::ExternalTorque;
 
 /// A section of the belt at one integration point along it.
@@ -94,46 +94,59 @@ impl<E: LineElement> PulleyLaw<E> for BeltContact {
     }
 
     fn stations(&self, mesh: &Mesh<E>, motion: &Motion, stations: &mut Stations) {
-        self.points(state(motion), &mut stations.contacts);
-        stations.points.clear();
-        stations.element_length.clear();
-        stations
-            .element_length
-            .extend(mesh.elements().iter().map(LineElement::length));
-        let mut e = [0.0; 12];
-        let mut gathered = usize::MAX;
-        for point in &stations.contacts {
-            if point.element != gathered {
-                mesh.gather(point.element, &motion.q, &mut e[..E::DOF]);
-                gathered = point.element;
-            }
-            let e = &e[..E::DOF];
-            let element = &mesh.elements()[point.element];
-            let slope = element.slope(e, point.xi);
-            let stretch = slope[0].hypot(slope[1]);
-            let turn = point.contact.map_or(0.0, |(p, contact)| {
-                let [nx, ny] = contact.normal;
-                let distance = self.pulleys[p].radius - contact.penetration;
-                (nx * slope[1] - ny * slope[0]).abs() / distance
-            });
-            stations.points.push(Station {
-                element: point.element,
-                xi: point.xi,
-                weight: point.weight,
-                position: [point.position[0], point.position[1], 0.0],
-                touch: point.contact.map(|(pulley, contact)| Touch {
-                    pulley,
-                    normal_force: contact.normal_force,
-                    friction_force: contact.friction_force,
-                    slip: contact.slip,
-                    slides: contact.slides(),
-                }),
-                tension: element.axial_force(e, point.xi),
-                stretch,
-                jacobian: element.jacobian(e, point.xi),
-                speed: (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch,
-                turn,
-            });
+        let mut contacts = std::mem::take(&mut stations.contacts);
+        self.points(state(motion), &mut contacts);
+        stations_at(mesh, &self.pulleys, &motion.q, &contacts, stations);
+        stations.contacts = contacts;
+    }
+}
+
+/// Writes the sections of the belt of `mesh` at `q` to `stations`, at points whose contact with `pulleys` is known.
+pub(super) fn stations_at<E: LineElement>(
+    mesh: &Mesh<E>,
+    pulleys: &[ContactPulley],
+    q: &[f64],
+    points: &[BeltPoint],
+    stations: &mut Stations,
+) {
+    stations.points.clear();
+    stations.element_length.clear();
+    stations
+        .element_length
+        .extend(mesh.elements().iter().map(LineElement::length));
+    let mut e = [0.0; 12];
+    let mut gathered = usize::MAX;
+    for point in points {
+        if point.element != gathered {
+            mesh.gather(point.element, q, &mut e[..E::DOF]);
+            gathered = point.element;
         }
+        let e = &e[..E::DOF];
+        let element = &mesh.elements()[point.element];
+        let slope = element.slope(e, point.xi);
+        let stretch = slope[0].hypot(slope[1]);
+        let turn = point.contact.map_or(0.0, |(p, contact)| {
+            let [nx, ny] = contact.normal;
+            let distance = pulleys[p].radius - contact.penetration;
+            (nx * slope[1] - ny * slope[0]).abs() / distance
+        });
+        stations.points.push(Station {
+            element: point.element,
+            xi: point.xi,
+            weight: point.weight,
+            position: [point.position[0], point.position[1], 0.0],
+            touch: point.contact.map(|(pulley, contact)| Touch {
+                pulley,
+                normal_force: contact.normal_force,
+                friction_force: contact.friction_force,
+                slip: contact.slip,
+                slides: contact.slides(),
+            }),
+            tension: element.axial_force(e, point.xi),
+            stretch,
+            jacobian: element.jacobian(e, point.xi),
+            speed: (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch,
+            turn,
+        });
     }
 }

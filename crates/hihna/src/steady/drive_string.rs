@@ -239,7 +239,7 @@ fn speed_controlled(pulleys: &[Pulley]) -> Result<(usize, f64), SteadyError> {
 }
 
 /// What a profile ends with.
-fn final_value(profile: &Profile) -> f64 {
+pub(super) fn final_value(profile: &Profile) -> f64 {
     match profile {
         Profile::Constant(value) => *value,
         Profile::Varying(Varying::Ramp { to, .. } | Varying::HalfCosine { to, .. }) => *to,

@@ -296,6 +296,7 @@ fn drive() -> impl Strategy<Value = Drive> {
             let needed = (path / smallest).ceil() as usize;
             belt.elements += needed;
             Drive {
+                steady: hihna::drive::Steady::default(),
                 title,
                 gravity: [0.0, gravity],
                 belt,

@@ -42,6 +42,39 @@ pub enum SteadyError {
         /// Name of the pulley.
         pulley: String,
     },
+    /// The speed of a pulley is not steady.
+    #[error("pulley \"{pulley}\" turns with an `irregularity`: steady running needs an even speed")]
+    Irregular {
+        /// Name of the pulley.
+        pulley: String,
+    },
+    /// The belt has internal damping.
+    #[error(
+        "the belt has a `damping_time` of {time} s, which steady running of the finite elements does not take into account"
+    )]
+    Damped {
+        /// The time [s].
+        time: f64,
+    },
+    /// The belt is one of plates.
+    #[error("steady running of the finite elements is there for planar elements only")]
+    Spatial,
+    /// A pulley is moved.
+    #[error(
+        "pulley \"{pulley}\" has a `displacement`: steady running of the finite elements needs fixed centres"
+    )]
+    Displaced {
+        /// Name of the pulley.
+        pulley: String,
+    },
+    /// Friction remembers.
+    #[error(
+        "friction of law `elastic-plastic` on pulley \"{pulley}\" remembers displacements, which steady running of the finite elements does not take into account"
+    )]
+    Remembers {
+        /// Name of the pulley.
+        pulley: String,
+    },
     /// The driven pulley ends at rest.
     #[error(
         "the speed of pulley \"{pulley}\" ends with {speed} rad/s: steady running needs one that turns"
@@ -114,6 +147,26 @@ impl SteadyError {
             Self::AngleDriven { pulley } => (
                 of_pulley(pulley).field("angle"),
                 "replace `angle` by `speed`, such as `speed = \"720 rpm\"`",
+            ),
+            Self::Irregular { pulley } => (
+                of_pulley(pulley).field("irregularity"),
+                "drop it, or let `hihna run` step through time",
+            ),
+            Self::Spatial => (
+                FieldPath::default().field("belt").field("element"),
+                "take `belt-beam`, or let `hihna run` step through time",
+            ),
+            Self::Displaced { pulley } => (
+                of_pulley(pulley).field("displacement"),
+                "give the `center` where it ends",
+            ),
+            Self::Remembers { .. } => (
+                FieldPath::default().field("contact").field("friction"),
+                "take law `coulomb`, or let `hihna run` step through time",
+            ),
+            Self::Damped { .. } => (
+                FieldPath::default().field("belt").field("damping_time"),
+                "set it to 0, or let `hihna run` step through time",
             ),
             Self::AtRest { pulley, .. } => (
                 of_pulley(pulley).field("speed"),

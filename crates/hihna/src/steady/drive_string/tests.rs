@@ -33,6 +33,7 @@ fn pulley(name: &str, center: [f64; 2], radius: f64) -> Pulley {
 
 fn drive(tension: f64, youngs_modulus: f64, pulley: Vec<Pulley>) -> Drive {
     Drive {
+        steady: crate::drive::Steady::default(),
         title: String::new(),
         belt: Belt {
             element: BeltElement::BeltBeam,

@@ -1,0 +1,246 @@
+//! `hihna steady --model fe`: steady running of the finite elements.
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use hihna::drive::{Drive, SteadyMesh};
+use hihna::input::{self, DriveFile, InputErrors, NumberField, UnknownNumber};
+use hihna::record::{Folder, RecordError};
+use hihna::steady::running::summary::{RunningSummary, Steady};
+use hihna::steady::running::{self, Answer, Outcome, RunningError};
+use serde::Serialize;
+
+use super::Arguments;
+use super::modes::{self, ModeSummary};
+use super::sensitivity::{self, SensitivitySummary};
+use crate::diagnostics::{Failure, print_warning};
+use crate::quantities::{degrees, percent, plain, with_prefix};
+use crate::standard_output;
+use crate::tables::columns;
+
+/// Radians per second of one turn per minute.
+const RPM: f64 = PI / 30.0;
+
+/// What `--json` prints: the summary and where the files are.
+#[derive(Serialize)]
+struct Told<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    folder: Option<String>,
+    #[serde(flatten)]
+    summary: &'a RunningSummary,
+    /// By the fields of `--sensitivity`; left out without it and for a drive that does not run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensitivity: Option<&'a SensitivitySummary>,
+    /// By rising frequency; left out without `--modes` and for a drive that does not run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    modes: Option<&'a [ModeSummary]>,
+}
+
+/// Solves, records and tells.
+pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
+    let file = arguments.source.open()?;
+    let folder = arguments
+        .out
+        .as_deref()
+        .map(|place| Folder::new(place, arguments.force))
+        .transpose()
+        .map_err(Failure::Folder)?;
+    let fields = find_fields(&file.drive, &arguments.sensitivity)?;
+    let study = running::study(&file.drive, &fields, arguments.modes.into())
+        .map_err(|error| failure(error, &file))?;
+    let outcome = study.outcome;
+    let sensitivity = study.sensitivity.map(|found| sensitivity::by_field(&found));
+    let names: Vec<_> = file.drive.pulley.iter().map(|p| p.name.as_str()).collect();
+    let modes = study.modes.map(|found| modes::summary(&found, &names));
+    let summary = RunningSummary::new(&file.drive, &outcome);
+    if let Some(folder) = folder {
+        let told = Told {
+            folder: None,
+            summary: &summary,
+            sensitivity: sensitivity.as_ref(),
+            modes: modes.as_deref(),
+        };
+        write(folder, &file, &outcome, &told).map_err(Failure::Record)?;
+    }
+    let folder = arguments
+        .out
+        .as_ref()
+        .map(|place| place.display().to_string());
+    if arguments.json {
+        standard_output::print_json(&Told {
+            folder,
+            summary: &summary,
+            sensitivity: sensitivity.as_ref(),
+            modes: modes.as_deref(),
+        })?;
+    } else {
+        let mut text = in_words(&summary, folder.as_deref());
+        if let Some(fields) = &sensitivity {
+            text.push('\n');
+            text.push_str(&sensitivity::in_words(fields));
+        }
+        if let Some(modes) = &modes {
+            text.push('\n');
+            text.push_str(&modes::in_words(modes));
+        }
+        standard_output::print(&text)?;
+    }
+    for warning in &summary.warnings {
+        print_warning(warning);
+    }
+    Ok(())
+}
+
+fn write(
+    folder: Folder,
+    file: &DriveFile,
+    outcome: &Outcome,
+    summary: &Told<'_>,
+) -> Result<(), RecordError> {
+    folder.text("drive.toml", &input::to_toml(&file.drive))?;
+    folder.json("summary.json", summary)?;
+    if let Answer::Running(running) = &outcome.answer {
+        folder.rows("profile.csv", &running.profile)?;
+    }
+    folder.finish()
+}
+
+/// The fields of these keys.
+pub(super) fn find_fields(drive: &Drive, keys: &[String]) -> Result<Vec<NumberField>, Failure> {
+    let find = |key: &String| NumberField::find(drive, key).map_err(|error| unknown(&error));
+    keys.iter().map(find).collect()
+}
+
+/// A key that is no number of the drive, as an argument that is wrong.
+pub(super) fn unknown(error: &UnknownNumber) -> Failure {
+    let near = error
+        .nearest
+        .as_ref()
+        .map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+    Failure::Argument {
+        message: error.to_string(),
+        help: format!("{near}name a field as in `--set`, such as `pulley.driven.torque`"),
+    }
+}
+
+/// What is wrong with the drive, at its field in the file where one is to blame.
+pub(super) fn failure(error: RunningError, file: &DriveFile) -> Failure {
+    match error {
+        RunningError::Drive(error) => {
+            Failure::Input(InputErrors::from(file.locate(error.problem(&file.drive))))
+        }
+        error => Failure::Running(error),
+    }
+}
+
+fn in_words(summary: &RunningSummary, folder: Option<&str>) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{}",
+        if summary.title.is_empty() {
+            "Belt drive"
+        } else {
+            &summary.title
+        }
+    );
+    let model = &summary.model;
+    let _ = writeln!(
+        text,
+        "Steady running of {} {} elements, {} unknowns; {} at rest\n",
+        model.elements,
+        match model.mesh {
+            SteadyMesh::Graded => "graded",
+            SteadyMesh::Uniform => "equal",
+        },
+        model.dofs,
+        with_prefix(summary.start.tension, "N"),
+    );
+    match &summary.steady {
+        Some(steady) => text.push_str(&running_in_words(steady)),
+        None => {
+            let _ = writeln!(text, "{}\n", super::words::capitalised(&summary.message));
+        }
+    }
+    if let Some(audit) = &summary.audit {
+        let _ = writeln!(
+            text,
+            "Power residual: {:.1e} of the power put in",
+            audit.power_residual
+        );
+    }
+    if let Some(capacity) = &summary.capacity {
+        let torques: Vec<_> = (capacity.torque.0.iter())
+            .map(|(pulley, torque)| format!("{} on `{pulley}`", with_prefix(*torque, "N m")))
+            .collect();
+        let _ = writeln!(
+            text,
+            "Safety against gross slip: {}, then `{}` slips first\nLargest torque: {}",
+            plain(capacity.factor, "times the torques"),
+            capacity.pulley,
+            torques.join(", "),
+        );
+    }
+    if let Some(folder) = folder {
+        let _ = writeln!(text, "Results: {folder}");
+    }
+    text
+}
+
+fn running_in_words(steady: &Steady) -> String {
+    let header = [
+        "pulley",
+        "speed",
+        "",
+        "external torque",
+        "slip",
+        "stick",
+        "contact",
+        "hub force",
+        "power",
+        "speed loss",
+    ];
+    let mut pulleys = columns(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    for (name, pulley) in &steady.pulley.0 {
+        let report = &pulley.report;
+        pulleys.add_row([
+            name.clone(),
+            plain(report.speed, "rad/s"),
+            plain(report.speed / RPM, "rpm"),
+            with_prefix(report.external_torque, "N m"),
+            degrees(report.slip_angle),
+            degrees(pulley.stick_angle),
+            degrees(report.contact_angle),
+            with_prefix(report.hub_force[0].hypot(report.hub_force[1]), "N"),
+            with_prefix(report.power, "W"),
+            percent(report.speed_loss),
+        ]);
+    }
+    let mut spans = columns(&["span", "tension", "belt speed", "strain"], &[1, 2, 3]);
+    for (name, span) in &steady.span.0 {
+        spans.add_row([
+            name.clone(),
+            with_prefix(span.tension, "N"),
+            plain(span.speed, "m/s"),
+            percent(span.strain),
+        ]);
+    }
+    let efficiency = steady
+        .efficiency
+        .map_or_else(|| "none, no power is taken out".to_owned(), percent);
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{}\n", pulleys.trim_fmt());
+    let _ = writeln!(text, "{}\n", spans.trim_fmt());
+    let _ = writeln!(text, "Speed loss: {}", percent(steady.speed_loss));
+    let _ = writeln!(
+        text,
+        "Power: {} in, {} out, {} lost",
+        with_prefix(steady.power_in, "W"),
+        with_prefix(steady.power_out, "W"),
+        with_prefix(steady.power_lost, "W"),
+    );
+    let _ = writeln!(text, "Efficiency: {efficiency}");
+    text
+}

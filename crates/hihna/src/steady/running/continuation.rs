@@ -1,0 +1,227 @@
+//! Ways to a steady state that Newton's method does not find at once.
+//!
+//! *Easier friction.* Without a limit of friction and with a gentle rise the circulation speed may be wrong by half and
+//! more. The rise is brought back first, then the limit, by factors that grow after a success and shrink after a
+//! failure.
+//!
+//! *Given slip.* The load factor is an unknown, and the sum of the slips in the sense of the torques is given. This
+//! passes where a given torque has no solution any more: the load factor rises with the slip to the capacity of the
+//! drive and stays there.
+
+use super::equations::Control;
+use super::newton::{Converged, NotFound};
+use super::prepare::set_laws;
+use super::{Capacity, RunningBelt};
+use crate::assemble::BeltElementType;
+use crate::friction::{FrictionLaw, Law};
+
+/// Newton iterations of one solution.
+pub(super) const MAX_ITERATIONS: usize = 30;
+/// Iterations of a stage of a continuation, which starts close.
+const STAGE_ITERATIONS: usize = 12;
+/// Stages of a continuation.
+const MAX_STAGES: usize = 60;
+/// Rise of friction to begin with [N s/m²].
+const GENTLE: f64 = 1.0e3;
+/// Friction that has no limit, in its own limits.
+const UNLIMITED: f64 = 1.0e6;
+/// Parts of a way below this are no progress.
+const SMALLEST_PART: f64 = 1.0e-3;
+/// First step of the slip, relative to the speed of the belt.
+const FIRST_SLIP: f64 = 1.0e-4;
+/// Smallest step of it, and the slip at which the search ends.
+const SMALLEST_SLIP: f64 = 1.0e-8;
+const LARGEST_SLIP: f64 = 0.5;
+/// Gain of the load factor, while the slip doubles, that counts as none.
+const GAIN: f64 = 1.0e-4;
+
+/// Where a continuation in the slip has ended.
+#[derive(Debug)]
+pub(super) enum Way {
+    /// At the state in which the torques are those of the drive.
+    Reached(Vec<f64>),
+    /// More slip raises the load no further.
+    Exhausted(Capacity),
+}
+
+impl<E: BeltElementType> RunningBelt<E> {
+    /// Newton's method from `z`.
+    pub(super) fn newton(&mut self, z: &mut [f64]) -> Result<Converged, NotFound> {
+        self.newton.solve(&mut self.equations, z, MAX_ITERATIONS)
+    }
+
+    /// Eases friction and brings it back.
+    pub(super) fn by_easier_friction(&mut self, z: &mut [f64]) -> Result<Converged, NotFound> {
+        let laws = self.laws.clone();
+        // A belt that hangs on its rest tension presses with it over the radius.
+        let smallest =
+            (self.assembly.layout.arcs.iter()).fold(f64::INFINITY, |r, a| r.min(a.radius));
+        let pressure = self.start.tension / smallest;
+        let steepest = (laws.iter()).fold(0.0, |s: f64, law| s.max(law.steepest_damping(pressure)));
+        let softness = (steepest / GENTLE).max(1.0);
+        let found = self
+            .ease(&laws, z, (UNLIMITED, softness), (UNLIMITED, 1.0))
+            .and_then(|_| self.ease(&laws, z, (UNLIMITED, 1.0), (1.0, 1.0)));
+        set_laws(&mut self.equations, &laws);
+        found
+    }
+
+    /// From grip and softness `from` to those of `to` in geometric steps.
+    fn ease(
+        &mut self,
+        laws: &[Law],
+        z: &mut [f64],
+        from: (f64, f64),
+        to: (f64, f64),
+    ) -> Result<Converged, NotFound> {
+        let at = |part: f64| {
+            let between = |a: f64, b: f64| a * (b / a).powf(part);
+            (between(from.0, to.0), between(from.1, to.1))
+        };
+        let set = |belt: &mut Self, part: f64, z: &mut [f64]| {
+            let (grip, softness) = at(part);
+            let eased: Vec<Law> = laws.iter().map(|law| law.eased(grip, softness)).collect();
+            set_laws(&mut belt.equations, &eased);
+            let limit = if part == 0.0 {
+                MAX_ITERATIONS
+            } else {
+                STAGE_ITERATIONS
+            };
+            belt.newton.solve(&mut belt.equations, z, limit)
+        };
+        let (mut done, mut step) = (0.0_f64, 0.25_f64);
+        let mut found = set(self, 0.0, z)?;
+        let mut failure = NotFound {
+            correction: f64::INFINITY,
+        };
+        for _ in 0..MAX_STAGES {
+            if done >= 1.0 {
+                return Ok(found);
+            }
+            let next = (done + step).min(1.0);
+            match set(self, next, z) {
+                Ok(converged) => {
+                    found = converged;
+                    done = next;
+                    step *= 2.0;
+                }
+                Err(not_found) => {
+                    failure = not_found;
+                    step *= 0.25;
+                    if step < SMALLEST_PART {
+                        break;
+                    }
+                }
+            }
+        }
+        if done >= 1.0 { Ok(found) } else { Err(failure) }
+    }
+
+    /// Raises the slip from that of the state `z` until the load factor is `wanted` or rises no further. Nothing
+    /// where no torque acts.
+    pub(super) fn by_slip(&mut self, z: &[f64], wanted: Option<f64>) -> Option<Way> {
+        if self.equations.slip_weights.iter().all(|w| *w == 0.0) {
+            return None;
+        }
+        let way = self.raise_slip(z.to_vec(), wanted);
+        self.equations.control = Control::Load(1.0);
+        Some(way)
+    }
+
+    fn raise_slip(&mut self, mut z: Vec<f64>, wanted: Option<f64>) -> Way {
+        let load = self.equations.load();
+        let travel: f64 = (self.equations.slip_weights.iter().enumerate())
+            .map(|(p, weight)| (weight * self.guess[self.equations.chain() + p]).abs())
+            .fold(0.0, f64::max);
+        let start = self.equations.slip(&z);
+        let mut slip = start;
+        let mut step = FIRST_SLIP * travel;
+        let mut best = z.clone();
+        let mut flat = 0;
+        let mut trial = z.clone();
+        for _ in 0..MAX_STAGES {
+            trial.copy_from_slice(&z);
+            self.equations.control = Control::Slip(slip + step);
+            let found = self
+                .newton
+                .solve(&mut self.equations, &mut trial, STAGE_ITERATIONS);
+            if found.is_err() {
+                step *= 0.25;
+                if step < SMALLEST_SLIP * travel {
+                    break;
+                }
+                continue;
+            }
+            if let Some(wanted) = wanted
+                && trial[load] >= wanted
+            {
+                if let Some(reached) = self.at_load(&z, &trial, wanted) {
+                    return Way::Reached(reached);
+                }
+                step *= 0.25;
+                if step < SMALLEST_SLIP * travel {
+                    break;
+                }
+                continue;
+            }
+            flat = if trial[load] - z[load] < GAIN * trial[load].abs() {
+                flat + 1
+            } else {
+                0
+            };
+            z.copy_from_slice(&trial);
+            if z[load] > best[load] {
+                best.copy_from_slice(&z);
+            }
+            slip += step;
+            if flat >= 2 || slip - start > LARGEST_SLIP * travel {
+                break;
+            }
+            step *= 2.0;
+        }
+        Way::Exhausted(self.capacity_at(&best))
+    }
+
+    /// The state of the load factor `wanted` between `low` and `high`.
+    fn at_load(&mut self, low: &[f64], high: &[f64], wanted: f64) -> Option<Vec<f64>> {
+        let load = self.equations.load();
+        let part = (wanted - low[load]) / (high[load] - low[load]);
+        let mut z: Vec<f64> = (low.iter().zip(high))
+            .map(|(a, b)| a + part * (b - a))
+            .collect();
+        self.equations.control = Control::Load(wanted);
+        self.newton
+            .solve(&mut self.equations, &mut z, STAGE_ITERATIONS)
+            .ok()?;
+        Some(z)
+    }
+
+    /// The state `z` read as the most that the drive carries.
+    fn capacity_at(&mut self, z: &[f64]) -> Capacity {
+        let found = self.observe(z);
+        let share = |p: &crate::observe::PulleyState| {
+            if p.contact_angle > 0.0 {
+                p.slip_angle / p.contact_angle
+            } else {
+                1.0
+            }
+        };
+        let pulley = (0..found.pulleys.len()).fold(0, |most, p| {
+            if share(&found.pulleys[p]) > share(&found.pulleys[most]) {
+                p
+            } else {
+                most
+            }
+        });
+        let torques = found.pulleys.iter().map(|p| p.external_torque).collect();
+        Capacity {
+            factor: z[self.equations.load()],
+            pulley,
+            torques,
+            slack_tension: found
+                .spans
+                .iter()
+                .fold(f64::INFINITY, |t, s| t.min(s.tension)),
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! Maps: a drive solved at every combination of several of its numbers.
+//!
+//! Points are solved line by line, each from the state of its neighbour on the line, lines on all cores. A line runs along a
+//! torque where one is among the numbers: if all torques grow together on it, the capacity found at one point holds for all,
+//! and points beyond it are known to slip without a search. What is found does not depend on the number of threads.
+
+use rayon::prelude::*;
+
+use super::summary::{RunningSummary, Steady};
+use super::{Answer, Capacity, Outcome, RunningBelt, RunningError};
+use crate::assemble::BeltElementType;
+use crate::drive::Drive;
+use crate::input::NumberField;
+use crate::steady::drive_string::final_value;
+
+/// A number of the drive and the values that it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The field.
+    pub field: NumberField,
+    /// Its values, SI.
+    pub values: Vec<f64>,
+}
+
+/// What a map found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// Names of the numeric columns: the fields first, then the results.
+    pub columns: Vec<String>,
+    /// One row a combination, the last axis fastest.
+    pub rows: Vec<Row>,
+}
+
+/// One point of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// `running`, `gross-slip`, `slack`, or `none` where the drive has no answer.
+    pub answer: &'static str,
+    /// By column; not a number where there is none.
+    pub values: Vec<f64>,
+}
+
+/// Solves `drive` at every combination of `axes`.
+pub fn map(drive: &Drive, axes: &[Axis]) -> Map {
+    with_belt_element!(drive, Element => of_elements::<Element>(drive, axes))
+}
+
+fn of_elements<E: BeltElementType>(drive: &Drive, axes: &[Axis]) -> Map {
+    let columns = columns(drive, axes);
+    let points: usize = axes.iter().map(|axis| axis.values.len()).product();
+    let torque = |axis: &Axis| axis.field.key.ends_with(".torque");
+    let along = axes
+        .iter()
+        .position(torque)
+        .unwrap_or(axes.len().saturating_sub(1));
+    // Distance in the table between neighbours on a line.
+    let stride: usize = axes
+        .iter()
+        .skip(along + 1)
+        .map(|axis| axis.values.len())
+        .product();
+    let length = axes.get(along).map_or(1, |axis| axis.values.len());
+    let lines: Vec<Vec<usize>> = (0..points)
+        .filter(|point| (point / stride).is_multiple_of(length))
+        .map(|first| (0..length).map(|k| first + k * stride).collect())
+        .collect();
+    let width = columns.len();
+    let solved: Vec<(usize, Row)> = (lines.par_iter())
+        .flat_map_iter(|line| solve_line::<E>(drive, axes, line, width))
+        .collect();
+    let mut rows = vec![
+        Row {
+            answer: "none",
+            values: Vec::new(),
+        };
+        points
+    ];
+    for (point, row) in solved {
+        rows[point] = row;
+    }
+    Map { columns, rows }
+}
+
+/// The values of the axes at a point of the table.
+fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
+    let mut rest = point;
+    let mut values: Vec<f64> = (axes.iter().rev())
+        .map(|axis| {
+            let value = axis.values[rest % axis.values.len()];
+            rest /= axis.values.len();
+            value
+        })
+        .collect();
+    values.reverse();
+    values
+}
+
+fn solve_line<E: BeltElementType>(
+    drive: &Drive,
+    axes: &[Axis],
+    line: &[usize],
+    width: usize,
+) -> Vec<(usize, Row)> {
+    let mut neighbour: Option<(RunningBelt<E>, Vec<f64>)> = None;
+    let mut known: Option<(Vec<f64>, Capacity)> = None;
+    line.iter()
+        .map(|&point| {
+            let values = values_at(axes, point);
+            let there = (axes.iter().zip(&values))
+                .try_fold(drive.clone(), |drive, (axis, value)| {
+                    axis.field.with(&drive, *value)
+                });
+            let mut row = Row {
+                answer: "none",
+                values: values.clone(),
+            };
+            if let Ok(there) = there
+                && let Ok(outcome) = solve_point(&there, &mut neighbour, &mut known)
+            {
+                row.answer = RunningSummary::new(&there, &outcome).answer;
+                row.values.extend(results(&there, &outcome));
+            }
+            row.values.resize(width, f64::NAN);
+            (point, row)
+        })
+        .collect()
+}
+
+fn solve_point<E: BeltElementType>(
+    drive: &Drive,
+    neighbour: &mut Option<(RunningBelt<E>, Vec<f64>)>,
+    known: &mut Option<(Vec<f64>, Capacity)>,
+) -> Result<Outcome, RunningError> {
+    let torques: Vec<f64> = drive
+        .pulley
+        .iter()
+        .map(|p| final_value(&p.torque))
+        .collect();
+    let constant = drive.pulley.iter().all(|p| p.load.is_none());
+    let scaled = known
+        .as_ref()
+        .filter(|_| constant)
+        .and_then(|(before, capacity)| scaled(before, &torques, capacity));
+    let near = match neighbour.take() {
+        Some((belt, z)) => RunningBelt::beside(drive, &belt, &z)
+            .ok()
+            .map(|belt| (belt, z)),
+        None => None,
+    };
+    let (mut belt, z) = match near {
+        Some((belt, z)) => (belt, Some(z)),
+        None => (RunningBelt::new(drive)?, None),
+    };
+    let answer = match (&scaled, &z) {
+        (Some(capacity), _) if capacity.factor < 1.0 => Answer::GrossSlip(super::GrossSlip {
+            capacity: capacity.clone(),
+        }),
+        (_, Some(z)) => {
+            if let Some(answer) = belt.solve_near(z) {
+                answer
+            } else {
+                belt = RunningBelt::new(drive)?;
+                belt.solve()?
+            }
+        }
+        (_, None) => belt.solve()?,
+    };
+    let capacity = match &answer {
+        Answer::Running(running) => scaled.or_else(|| belt.capacity(running)),
+        _ => None,
+    };
+    let most = match &answer {
+        Answer::GrossSlip(slip) => Some(&slip.capacity),
+        _ => capacity.as_ref(),
+    };
+    *known = most.filter(|_| constant).map(|c| (torques, c.clone()));
+    let outcome = Outcome {
+        capacity,
+        layout: belt.layout().clone(),
+        mounting: *belt.mounting(),
+        start: belt.start,
+        dofs: belt.dofs(),
+        warnings: Vec::new(),
+        answer,
+    };
+    if let Answer::Running(running) = &outcome.answer {
+        *neighbour = Some((belt, running.state.clone()));
+    } else if let Some(z) = z {
+        *neighbour = Some((belt, z));
+    }
+    Ok(outcome)
+}
+
+/// The capacity found under the torques `before`, under `now` that are in proportion to them.
+fn scaled(before: &[f64], now: &[f64], capacity: &Capacity) -> Option<Capacity> {
+    let (largest, at) = (before.iter().zip(now)).fold((0.0, 0.0), |most: (f64, f64), (b, n)| {
+        if b.abs() > most.0.abs() {
+            (*b, *n)
+        } else {
+            most
+        }
+    });
+    let factor = at / largest;
+    let proportional =
+        (before.iter().zip(now)).all(|(b, n)| (n - factor * b).abs() <= 1.0e-12 * at.abs());
+    (factor > 0.0 && factor.is_finite() && proportional).then(|| Capacity {
+        factor: capacity.factor / factor,
+        ..capacity.clone()
+    })
+}
+
+fn columns(drive: &Drive, axes: &[Axis]) -> Vec<String> {
+    let mut columns: Vec<String> = axes.iter().map(|axis| axis.field.key.clone()).collect();
+    let results = [
+        "speed_loss",
+        "power_in",
+        "power_out",
+        "power_lost",
+        "efficiency",
+        "margin",
+        "overload",
+        "power_residual",
+    ];
+    columns.extend(results.map(str::to_owned));
+    for pulley in &drive.pulley {
+        for part in [
+            "speed",
+            "external_torque",
+            "hub_force",
+            "slip_angle",
+            "contact_angle",
+        ] {
+            columns.push(format!("{}.{part}", pulley.name));
+        }
+    }
+    let next = drive.pulley.iter().cycle().skip(1);
+    for (from, to) in drive.pulley.iter().zip(next) {
+        columns.push(format!("{}-{}.tension", from.name, to.name));
+    }
+    columns
+}
+
+/// The results in the order of [`columns`].
+fn results(drive: &Drive, outcome: &Outcome) -> Vec<f64> {
+    let summary = RunningSummary::new(drive, outcome);
+    let nothing = f64::NAN;
+    let margin = summary.capacity.as_ref().map_or(nothing, |c| c.factor);
+    let overload = summary
+        .gross_slip
+        .as_ref()
+        .map_or(nothing, |slip| slip.overload);
+    let Some(steady) = &summary.steady else {
+        return vec![
+            nothing, nothing, nothing, nothing, nothing, margin, overload,
+        ];
+    };
+    let residual = summary.audit.map_or(nothing, |audit| audit.power_residual);
+    let mut values = vec![
+        steady.speed_loss,
+        steady.power_in,
+        steady.power_out,
+        steady.power_lost,
+        steady.efficiency.unwrap_or(nothing),
+        margin,
+        overload,
+        residual,
+    ];
+    values.extend(by_part(steady));
+    values
+}
+
+fn by_part(steady: &Steady) -> Vec<f64> {
+    let pulleys = steady.pulley.0.iter().flat_map(|(_, pulley)| {
+        let p = &pulley.report;
+        let hub = p.hub_force[0].hypot(p.hub_force[1]);
+        [
+            p.speed,
+            p.external_torque,
+            hub,
+            p.slip_angle,
+            p.contact_angle,
+        ]
+    });
+    pulleys
+        .chain(steady.span.0.iter().map(|(_, span)| span.tension))
+        .collect()
+}

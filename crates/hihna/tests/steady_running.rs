@@ -1,0 +1,486 @@
+//! Steady running of the finite elements, solved directly.
+
+use ancf::element::BeltBeam2;
+use hihna::drive::Drive;
+use hihna::input::NumberField;
+use hihna::steady::drive_string::DriveString;
+use hihna::steady::running::map::{Axis, map};
+use hihna::steady::running::{
+    Answer, Found, Outcome, Running, RunningBelt, force_and_moment, solve,
+};
+use hihna::steady::string::{self, Closure, Model};
+
+const BASE: &str = include_str!("../../../examples/two_pulley.toml");
+const THREE: &str = include_str!("../../../examples/three_pulleys.toml");
+const IDLER: &str = include_str!("../../../examples/back_side_idler.toml");
+const UNEQUAL: &str = include_str!("../../../examples/figure_3_21.toml");
+const STRING: &str = include_str!("../../../examples/towards_the_string.toml");
+const LOAD: &str = "pulley.driven.torque=-1";
+const LOW_FRICTION: &str = "contact.friction.coefficient=0.3";
+const LOADED: &str = include_str!("../../../examples/figures_3_10_to_3_20.toml");
+
+fn drive(text: &str, changes: &[&str]) -> Drive {
+    let overrides: Vec<_> = (changes.iter())
+        .map(|change| change.parse().expect("an override"))
+        .collect();
+    hihna::input::parse("drive.toml", text, &overrides).expect("a valid drive")
+}
+
+fn outcome(text: &str, changes: &[&str]) -> Outcome {
+    solve(&drive(text, changes)).unwrap_or_else(|error| panic!("{changes:?}: {error}"))
+}
+
+fn running(text: &str, changes: &[&str]) -> Running {
+    match outcome(text, changes).answer {
+        Answer::Running(running) => *running,
+        other => panic!("{changes:?}: {other:?}"),
+    }
+}
+
+/// What a drive that cannot run is told.
+fn refusal(text: &str, changes: &[&str]) -> String {
+    match solve(&drive(text, changes)) {
+        Err(error) => error.to_string(),
+        Ok(outcome) => panic!("{changes:?}: {:?}", outcome.answer),
+    }
+}
+
+fn assert_near(name: &str, found: f64, wanted: f64, tolerance: f64) {
+    assert!(
+        (found - wanted).abs() <= tolerance,
+        "{name}: {found}, not {wanted} within {tolerance:e}"
+    );
+}
+
+/// Speeds, tensions and driver's torque of an independent implementation of the same equations (another contact
+/// quadrature, dual numbers for the tangent): one unit of the last digit given.
+#[test]
+fn orientation_values() {
+    let loaded = running(LOADED, &["belt.elements=120", "pulley.driven.torque=-10"]);
+    assert_near("speed", loaded.pulleys[1].speed, 119.8322, 1.0e-4);
+    assert_near("slack", loaded.spans[0].tension, 1545.75, 0.01);
+    assert_near("tight", loaded.spans[1].tension, 1673.63, 0.01);
+    assert_near("torque", loaded.pulleys[0].external_torque, 10.309, 1.0e-3);
+    let base = running(BASE, &["belt.elements=120", LOAD, LOW_FRICTION]);
+    assert_near("speed", base.pulleys[1].speed, 11.98242, 1.0e-5);
+    assert_near("slack", base.spans[0].tension, 20.638, 1.0e-3);
+    assert_near("tight", base.spans[1].tension, 32.951, 1.0e-3);
+}
+
+/// Hub forces and torques sum to nothing: uniform translations and rotations are motions that the elements can make, so that
+/// their balance holds to the convergence of Newton's method, whatever the mesh. Round-off of 1e-12 m in contact stiffnesses of 1e6 N/m
+/// is 1e-6 N at most, 1e-8 of the forces.
+#[test]
+fn laws_of_momentum() {
+    for (text, changes) in [
+        (BASE, &["belt.elements=20", LOAD, LOW_FRICTION][..]),
+        (LOADED, &["belt.elements=30"]),
+        (THREE, &["belt.elements=40"]),
+        (IDLER, &["belt.elements=60"]),
+        (BASE, &["belt.elements=30", LOAD, "belt.element=cubic-beam"]),
+        (
+            BASE,
+            &["belt.elements=60", LOAD, "belt.element=linear-beam"],
+        ),
+        (BASE, &["belt.elements=30", LOAD, "contact.surface=face"]),
+        (
+            BASE,
+            &[
+                "belt.elements=30",
+                "pulley.driven.torque=1",
+                "pulley.driven.wrap=outside",
+                "belt.length=1.24",
+            ],
+        ),
+    ] {
+        let drive = drive(text, changes);
+        let found = running(text, changes);
+        let centers: Vec<_> = drive.pulley.iter().map(|p| p.center).collect();
+        let ([fx, fy], moment) = force_and_moment(&found, &centers);
+        let scale: f64 = (found.pulleys.iter())
+            .map(|p| p.hub_force[0].hypot(p.hub_force[1]))
+            .sum();
+        assert!(
+            fx.hypot(fy) < 1.0e-8 * scale,
+            "{changes:?}: {fx} {fy} N of {scale}"
+        );
+        assert!(moment.abs() < 1.0e-8 * scale, "{changes:?}: {moment} N m");
+    }
+}
+
+/// The weight of the belt hangs on the hubs.
+#[test]
+fn gravity_is_carried_by_the_hubs() {
+    let found = running(BASE, &["belt.elements=30", LOAD, "gravity=[0, -9.81]"]);
+    let ([fx, fy], _) = force_and_moment(&found, &[[0.0; 2]; 2]);
+    let weight = 1036.0 * 1.0e-4 * 1.2727 * 9.81;
+    assert_near("across", fx, 0.0, 1.0e-8);
+    assert_near("down", fy, -weight, 1.0e-8);
+}
+
+/// The drive and its mirror image, which runs the other way: to the convergence of Newton's method.
+#[test]
+fn mirrored_drive() {
+    let changes = ["belt.elements=60", LOAD, LOW_FRICTION];
+    let one = running(BASE, &changes);
+    let mirrored = [
+        "belt.elements=60",
+        "pulley.driven.torque=1",
+        "pulley.driver.speed=-12",
+        LOW_FRICTION,
+    ];
+    let other = running(BASE, &mirrored);
+    for p in 0..2 {
+        assert_near(
+            "speed",
+            other.pulleys[p].speed,
+            -one.pulleys[p].speed,
+            1.2e-8,
+        );
+        let (a, b) = (one.pulleys[p].hub_force, other.pulleys[p].hub_force);
+        assert_near("hub x", b[0], a[0], 1.0e-9 * a[0].abs());
+        assert_near("hub y", b[1], -a[1], 1.0e-9 * a[0].abs());
+    }
+    for (a, b) in [(0, 1), (1, 0)] {
+        let (a, b) = (one.spans[a].tension, other.spans[b].tension);
+        assert_near("tension", b, a, 1.0e-9 * a);
+    }
+}
+
+/// From a belt that does not slip straight to any speed and torque.
+#[test]
+fn few_iterations() {
+    for (text, changes) in [
+        (BASE, &["belt.elements=60"][..]),
+        (BASE, &["belt.elements=60", LOAD, LOW_FRICTION]),
+        (BASE, &["belt.elements=60", LOAD, "contact.damping=1000"]),
+        (LOADED, &["belt.elements=60"]),
+        (LOADED, &["belt.elements=60", "contact.friction.slope=1e4"]),
+        (THREE, &["belt.elements=60"]),
+        (IDLER, &["belt.elements=60"]),
+        (UNEQUAL, &["belt.elements=60"]),
+    ] {
+        let found = running(text, changes);
+        assert_eq!(found.found, Found::Directly, "{changes:?}");
+        assert!(found.iterations <= 8, "{changes:?}: {}", found.iterations);
+    }
+}
+
+/// The power residual is what the elements do not resolve: below 1e-3 with 60 of them, and falling with their number.
+#[test]
+fn powers_balance() {
+    let residual = |text: &str, n: usize, more: &[&str]| {
+        let n = format!("belt.elements={n}");
+        running(text, &[&[n.as_str()], more].concat())
+            .power_residual
+            .abs()
+    };
+    for (text, more) in [(LOADED, &[][..]), (BASE, &[LOAD, LOW_FRICTION])] {
+        let [coarse, middle, fine] = [30, 60, 120].map(|n| residual(text, n, more));
+        assert!(
+            middle < 1.0e-3 && middle < coarse && fine < middle.max(1.0e-5),
+            "{coarse:e} {middle:e} {fine:e}"
+        );
+    }
+}
+
+/// 30 graded elements find the tensions that 80 equal ones do: the error of either is a quarter percent of what 160 graded
+/// ones give, which 80 graded ones meet within 2e-4.
+#[test]
+fn grading() {
+    let tension = |n: usize, mesh: &str| {
+        let (n, mesh) = (format!("belt.elements={n}"), format!("steady.mesh={mesh}"));
+        running(BASE, &[&n, &mesh, LOAD, LOW_FRICTION]).spans[0].tension
+    };
+    let exact = tension(160, "graded");
+    let error = |n: usize, mesh: &str| (tension(n, mesh) / exact - 1.0).abs();
+    let (few, many) = (error(30, "graded"), error(80, "uniform"));
+    assert!(few < 3.0e-3 && few < 1.5 * many, "{few:e} {many:e}");
+    assert!(error(80, "graded") < 3.0e-4 && error(80, "graded") < 0.2 * many);
+}
+
+/// In the limit the extensible string: thin belt, stiff pulleys, steep creep, to 0.1 % of the speed and 0.5 % of the tensions. Bending
+/// of length `sqrt(E I / T)` at four points lengthens the path by micrometres, which the stiff belt feels in its tension: less of it
+/// than in the example. The creep layers are short, so that it takes many elements.
+#[test]
+fn string_limit() {
+    let changes = [
+        "belt.damping_time=0",
+        "belt.elements=480",
+        "belt.bending_factor=1e-4",
+        "contact.friction.slope=1e6",
+    ];
+    let drive = drive(STRING, &changes);
+    let found = running(STRING, &changes);
+    let string = DriveString::new(&drive, Model::Full, Closure::UnstretchedLength)
+        .expect("a drive for the string");
+    let Ok(string::Answer::Running(theory)) = string.solve() else {
+        panic!("the string does not run");
+    };
+    for (pulley, state) in string.pulleys(&theory).iter().zip(&found.pulleys) {
+        assert_near(
+            &pulley.name,
+            state.speed,
+            pulley.speed,
+            1.0e-3 * pulley.speed,
+        );
+    }
+    for (span, state) in string.spans(&theory).iter().zip(&found.spans) {
+        assert_near(
+            &span.name,
+            state.tension,
+            span.tension,
+            5.0e-3 * span.tension,
+        );
+    }
+}
+
+/// Beyond the capacity there is no steady running, and the answer says by how much. The capacity is the same from below and
+/// from above; with equal pulleys Euler's formula, with what the belt needs for its own motion taken off, gives it within the effect of
+/// the penetration and the bending, a few percent.
+#[test]
+fn gross_slip() {
+    let near = |torque: &str| outcome(BASE, &["belt.elements=60", torque, LOW_FRICTION]);
+    let below = near("pulley.driven.torque=-1.9")
+        .capacity
+        .expect("a capacity");
+    let carried = -1.9 * below.factor;
+    let Answer::GrossSlip(slip) = near("pulley.driven.torque=-3").answer else {
+        panic!("it runs");
+    };
+    // Both searches end where the load rises by less than 1e-4 while the slip doubles.
+    assert_near(
+        "capacity",
+        slip.capacity.torques[1],
+        carried,
+        1.0e-3 * carried.abs(),
+    );
+    assert_near("overload", slip.overload(), -3.0 / carried, 2.0e-3);
+    let exhausted = near(&format!("pulley.driven.torque={}", 0.999 * carried));
+    let Answer::Running(found) = &exhausted.answer else {
+        panic!("{:?}", exhausted.answer);
+    };
+    let v = found.spans[0].speed.abs();
+    let centrifugal = 1036.0 * 1.0e-4 * v * v;
+    let ratio = (found.spans[1].tension - centrifugal) / (found.spans[0].tension - centrifugal);
+    let euler = (0.3 * std::f64::consts::PI).exp();
+    assert_near("tension ratio", ratio, euler, 0.03 * euler);
+}
+
+/// A creep without limit of friction loses `T / (v_s R L)` on each pulley beyond the strain of the belt; the other laws
+/// run, too.
+#[test]
+fn other_laws_and_directions() {
+    let coulomb = "contact.friction={law=\"coulomb\", coefficient=0.6, velocity=0.005}";
+    let stribeck = "contact.friction={law=\"stribeck\", static_coefficient=0.6, sliding_coefficient=0.6, stribeck_velocity=0.05, velocity=0.005}";
+    let with = |law: &str, torque: &str| running(BASE, &["belt.elements=40", torque, law]);
+    let (one, other) = (with(coulomb, LOAD), with(stribeck, LOAD));
+    // Without a difference of the coefficients the laws are one.
+    assert_near(
+        "speed",
+        one.pulleys[1].speed,
+        other.pulleys[1].speed,
+        1.0e-8,
+    );
+    // A pulley that pushes runs faster.
+    assert!(with(coulomb, "pulley.driven.torque=1").pulleys[1].speed > 12.0);
+    // Loads that depend on the speed are taken at the speed found.
+    let fan = running(
+        BASE,
+        &[
+            "belt.elements=40",
+            "pulley.driven.load={law=\"fan\", torque=1, speed=12}",
+        ],
+    );
+    let part = fan.pulleys[1].speed / 12.0;
+    assert_near(
+        "torque",
+        fan.pulleys[1].external_torque,
+        -part * part,
+        1.0e-9,
+    );
+}
+
+/// What cannot run steadily is told so, with the number that matters.
+#[test]
+fn refusals() {
+    for (changes, part) in [
+        (&["pulley.driver.speed=0"][..], "ends with 0 rad/s"),
+        (&["belt.damping_time=1e-3"], "`damping_time` of 0.001 s"),
+        (
+            &["contact.friction={law=\"elastic-plastic\", coefficient=0.5, stiffness=1e8}"],
+            "remembers displacements",
+        ),
+        (
+            &["pulley.driver.irregularity=[{order=2, amplitude=0.01}]"],
+            "needs an even speed",
+        ),
+        (&["pulley.driver.angle=1"], "driven by its `angle`"),
+        (&["pulley.driver.speed=300"], "the belt needs 61.2"),
+    ] {
+        let told = refusal(BASE, changes);
+        assert!(told.contains(part), "{changes:?}: {told}");
+    }
+}
+
+/// Derivatives by implicit differentiation against central differences of whole solutions on the same parts of the belt. Those
+/// have an error of h² (3e-6 with a relative h of 1e-4: a length changed by that changes the tension by a tenth) and of round-off over h.
+#[test]
+fn derivatives() {
+    let changes = [
+        "belt.elements=40",
+        "pulley.driven.torque=-5",
+        "contact.friction.slope=1e4",
+    ];
+    let drive = drive(LOADED, &changes);
+    let mut belt = RunningBelt::<BeltBeam2>::new(&drive).expect("a drive");
+    let solved =
+        |belt: &mut RunningBelt<BeltBeam2>, drive: &Drive| match belt.solve().expect("solved") {
+            Answer::Running(running) => {
+                let found = belt.sensitivity(drive, &running, &[]).expect("results");
+                (running, found.outputs)
+            }
+            other => panic!("{other:?}"),
+        };
+    let (running, _) = solved(&mut belt, &drive);
+    let keys = [
+        "belt.youngs_modulus",
+        "belt.length",
+        "belt.density",
+        "contact.friction.slope",
+        "pulley.driver.speed",
+        "pulley.driven.torque",
+        "pulley.driven.radius",
+    ];
+    let fields: Vec<_> = (keys.iter())
+        .map(|key| NumberField::find(&drive, key).expect("a field"))
+        .collect();
+    let found = belt
+        .sensitivity(&drive, &running, &fields)
+        .expect("derivatives");
+    for (field, input) in fields.iter().zip(&found.inputs) {
+        let h = 1.0e-5 * input.value.abs();
+        let [up, down] = [h, -h].map(|h| {
+            let moved = field.with(&drive, input.value + h).expect("a drive");
+            let mut other =
+                RunningBelt::<BeltBeam2>::on_mesh(&moved, &belt.starts).expect("a drive");
+            solved(&mut other, &moved).1
+        });
+        for (i, output) in found.outputs.iter().enumerate() {
+            let difference = (up[i].value - down[i].value) / (2.0 * h);
+            let scale = (output.value / input.value).abs().max(difference.abs());
+            // Hub forces of thousands of newtons carry the round-off of the small ones across.
+            let round_off = 1.0e-8 / h;
+            let error = (input.derivatives[i] - difference).abs();
+            assert!(
+                error < 1.0e-6 * scale + round_off,
+                "{} by {}: {} and {difference}",
+                output.name,
+                input.key,
+                input.derivatives[i]
+            );
+        }
+    }
+}
+
+/// The lowest mode of a span against the string of tension T that travels with the speed v between its tangent points, `f = (w² - v²)/(2 L w)`
+/// with the wave speed `w² = T lambda / (rho A)` of the belt stretched by lambda: 0.5 %, which bending and the compliance of the pulleys
+/// leave. Both spans have it where no torque makes their tensions differ. Friction damps: nothing grows.
+#[test]
+fn modes_of_the_spans() {
+    for (text, changes, youngs_modulus) in [
+        (BASE, &["belt.elements=60"][..], 1.0e8),
+        (
+            LOADED,
+            &["belt.elements=60", "pulley.driven.torque=0"],
+            1.0e9,
+        ),
+    ] {
+        let drive = drive(text, changes);
+        let mut belt = RunningBelt::<BeltBeam2>::new(&drive).expect("a drive");
+        let Answer::Running(running) = belt.solve().expect("solved") else {
+            panic!("it does not run");
+        };
+        let modes = belt.modes(&running, 6).expect("modes");
+        let span = &running.spans[0];
+        let (area, length) = (1.0e-4, belt.layout().spans[0].length);
+        let stretch = 1.0 + span.strain;
+        assert_near(
+            "tension",
+            span.tension,
+            0.5 * youngs_modulus * area * (stretch * stretch - 1.0) * stretch,
+            0.01 * span.tension,
+        );
+        let wave = (span.tension * stretch / (1036.0 * area)).sqrt();
+        let string =
+            std::f64::consts::PI * (wave * wave - span.speed * span.speed) / (length * wave);
+        let spans: Vec<_> = modes
+            .iter()
+            .filter(|mode| mode.pulley_share < 0.01)
+            .collect();
+        for mode in &spans[..2] {
+            assert_near("span", mode.frequency, string, 5.0e-3 * string);
+        }
+        assert_eq!(
+            modes.iter().filter(|mode| mode.pulley_share > 0.9).count(),
+            1
+        );
+        assert!(modes.iter().all(|mode| mode.growth < 0.0), "{modes:?}");
+    }
+}
+
+/// A map by whole solutions: rows in the order of the axes, capacity in proportion to the torque, points beyond it marked, and the same for one
+/// thread as for many.
+#[test]
+fn maps() {
+    let drive = drive(BASE, &["belt.elements=30", LOW_FRICTION]);
+    let axis = |key: &str, values: &[f64]| Axis {
+        field: NumberField::find(&drive, key).expect("a field"),
+        values: values.to_vec(),
+    };
+    let axes = [
+        axis("pulley.driven.torque", &[-0.5, -1.0, -1.5, -3.0]),
+        axis("pulley.driver.speed", &[6.0, 12.0]),
+    ];
+    let found = map(&drive, &axes);
+    let column = |name: &str| {
+        found
+            .columns
+            .iter()
+            .position(|c| c == name)
+            .expect("a column")
+    };
+    assert_eq!(found.rows.len(), 8);
+    for (i, row) in found.rows.iter().enumerate() {
+        let (torque, speed) = (axes[0].values[i / 2], axes[1].values[i % 2]);
+        assert_near("torque", row.values[0], torque, 0.0);
+        assert_near("speed", row.values[1], speed, 0.0);
+        let runs = torque > -2.0;
+        assert_eq!(row.answer, if runs { "running" } else { "gross-slip" });
+        if runs {
+            let changes = [
+                format!("pulley.driven.torque={torque}"),
+                format!("pulley.driver.speed={speed}"),
+            ];
+            let changes = ["belt.elements=30", LOW_FRICTION, &changes[0], &changes[1]];
+            let alone = running(BASE, &changes);
+            // The phase of the mesh is that of the neighbour: a part of the mesh's own error.
+            let tight = row.values[column("driven-driver.tension")];
+            assert_near("tension", tight, alone.spans[1].tension, 5.0e-3 * tight);
+            assert_near(
+                "loss",
+                row.values[column("driven.speed")],
+                alone.pulleys[1].speed,
+                1.0e-4 * speed,
+            );
+        } else {
+            assert!(row.values[column("overload")] > 1.4);
+        }
+    }
+    let one = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a thread");
+    let alone = one.install(|| map(&drive, &axes));
+    assert_eq!(format!("{alone:?}"), format!("{found:?}"));
+}
