@@ -152,10 +152,7 @@ fn misaligned_pulleys_need_friction_along_their_axes() {
         "pulley.driven.tilt",
         &["sideways", "friction_directions = \"both\""],
     );
-    let both = plate(
-        "points = 9",
-        "friction_directions = \"both\"\npoints = 9",
-    );
+    let both = plate("points = 9", "friction_directions = \"both\"\npoints = 9");
     fails(
         &both.replacen("inertia = 0.25", "tilt = [0.6, 0.0]\ninertia = 0.25", 1),
         "tilt =",
