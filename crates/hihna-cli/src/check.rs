@@ -45,7 +45,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn mount(drive: &Drive) -> Result<(Layout, Mounting), AssemblyError> {
-    let layout = Layout::new(&drive.pulley)?;
+    let layout = Layout::of(drive)?;
     let mounting = Mounting::new(&drive.belt, &layout)?;
     Ok((layout, mounting))
 }

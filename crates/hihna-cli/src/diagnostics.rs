@@ -127,6 +127,9 @@ impl Failure {
             Self::Run(RunError::Step { .. }) => {
                 "something is too steep there: try a lower `contact.friction.slope` (or a larger `velocity`), a lower `contact.stiffness` or `contact.damping`, more `belt.elements`, a smaller `run.accuracy` or fixed `run.step`, or a gentler speed; with `--set KEY=VALUE` the file can stay as it is"
             }
+            Self::Run(RunError::TooManySteps { .. }) => {
+                "steps follow the fastest driver's speed, the swings of light pulleys and `run.accuracy`: look for slips of the decimal point there, or shorten `run.end_time`"
+            }
             Self::Run(RunError::Stopped { .. }) => "nothing was written",
             Self::Argument { help, .. } => help,
             Self::UnknownCase(UnknownCase {
@@ -146,7 +149,7 @@ impl Failure {
             }
             Self::Audit { folder, .. } => {
                 return Some(format!(
-                    "the results in {} are not to be trusted; try a smaller `run.accuracy` or more `belt.elements`",
+                    "the results in {} are not to be trusted; try more `belt.elements` or `contact.points`, gentler changes of speed and load, or a short fixed `run.step`",
                     folder.display()
                 ));
             }

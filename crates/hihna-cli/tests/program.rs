@@ -237,6 +237,9 @@ fn check_prints_the_layout() {
         assert!(text(&output.stdout).contains(part), "{part}: {output:?}");
     }
     assert_eq!(text(&output.stderr), "");
+    // The centre line lies half of the thickness further out: pi times 10 mm more path.
+    let output = hihna(&folder, &["check", "--set", "contact.surface=face"]);
+    assert!(text(&output.stdout).contains("1.307689 m"), "{output:?}");
     let output = hihna(&folder, &["check", "--json", "--set", "belt.strain=1 %"]);
     assert_eq!(status(&output), 0);
     let answer = answer(&output);

@@ -137,7 +137,7 @@ fn the_object_is_consistent() {
     let (driver, driven) = (&steady["pulley"]["driver"], &steady["pulley"]["driven"]);
     assert!((number(&driven["external_torque"]) + 2.0).abs() < 1.0e-10);
     assert!((number(&driven["slip_angle"]) + number(&driven["stick_angle"]) - PI).abs() < 1.0e-10);
-    assert!(number(&driver["power"]) > 0.0);
+    assert!(number(&driver["power"]) < 0.0 && number(&driven["power"]) > 0.0);
     // The torque is R times the difference of axial force less momentum flow.
     let pressing = |span: &str| number(&steady["span"][span]["pressing_tension"]);
     let torque = 0.05 * (pressing("driven-driver") - pressing("driver-driven"));

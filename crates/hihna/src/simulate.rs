@@ -107,6 +107,9 @@ impl Audit {
     }
 }
 
+/// Hours to days of computing.
+const MOST_STEPS: f64 = 1.0e9;
+
 /// A run that failed.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RunError {
@@ -120,6 +123,16 @@ pub enum RunError {
         place: String,
         /// Why.
         cause: StaticsError,
+    },
+    /// The run would never end.
+    #[error("the run of {end} s would take {count:.1e} steps of {step:.1e} s")]
+    TooManySteps {
+        /// Time to run [s].
+        end: f64,
+        /// Number of steps.
+        count: f64,
+        /// Longest step [s].
+        step: f64,
     },
     /// A step did not converge.
     #[error("the run stops at t = {time:.6} s, {place}: {cause}")]
@@ -214,6 +227,12 @@ fn run<E: Element, L: PulleyLaw<E>>(
     let settled = settle_on_pulleys(drive, &mut assembly, observer)?;
     release(&mut assembly)?;
     let control = control::control(drive, &assembly.mounting);
+    let count = end / control.step;
+    // Also where the step is no number.
+    if !(count <= MOST_STEPS) {
+        let step = control.step;
+        return Err(RunError::TooManySteps { end, count, step });
+    }
 
     let mut recorder = Recorder::new(drive, &assembly);
     let start = recorder.start(drive, &assembly, settled);

@@ -1,9 +1,12 @@
 //! The summary of a run (`summary.json`).
 
+mod warnings;
+
 use serde::{Serialize, Serializer};
 
 use crate::drive::{BeltElement, Drive};
 use crate::history::History;
+use crate::layout::Arc;
 use crate::simulate::Outcome;
 
 /// Part of the run, at its end, over which steady means are taken.
@@ -222,6 +225,9 @@ impl Summary {
         let end = drive.run.end_time;
         let statistics = outcome.statistics;
         let last = outcome.history.rows().next_back().map_or(end, |row| row[0]);
+        let steady = report(drive, outcome, (1.0 - STEADY_PART) * end, end);
+        let mut warnings: Vec<_> = outcome.warnings.iter().map(ToString::to_string).collect();
+        warnings.extend(warnings::of_running(drive, &steady));
         Self {
             title: drive.title.clone(),
             model: Model {
@@ -252,7 +258,7 @@ impl Summary {
                 path_tension: outcome.mounting.tension,
             },
             end: report(drive, outcome, last, last),
-            steady: report(drive, outcome, (1.0 - STEADY_PART) * end, end),
+            steady,
             scatter: scatter(drive, &outcome.history, (1.0 - STEADY_PART) * end, end),
             audit: Audit {
                 energy_input: outcome.audit.energy_input,
@@ -261,9 +267,14 @@ impl Summary {
                 tolerance: outcome.audit.tolerance,
                 passed: outcome.audit.passed(),
             },
-            warnings: outcome.warnings.iter().map(ToString::to_string).collect(),
+            warnings,
         }
     }
+}
+
+/// Radius, negative where the belt turns the pulley against the others.
+fn surface(arc: &Arc) -> f64 {
+    arc.radius * arc.sweep.signum()
 }
 
 /// Means over the rows with times in `[from, to]`; a single row if both are its time.
@@ -276,7 +287,7 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
         .iter()
         .position(crate::drive::Pulley::is_driver)
         .map_or(0.0, |p| {
-            mean(&format!("{}.speed", names[p])).abs() * outcome.layout.arcs[p].radius
+            mean(&format!("{}.speed", names[p])) * surface(&outcome.layout.arcs[p])
         });
     let pulley = drive
         .pulley
@@ -285,10 +296,10 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
         .map(|(p, arc)| {
             let of = |what: &str| mean(&format!("{}.{what}", p.name));
             let speed = of("speed");
-            let speed_loss = if reference > 0.0 {
-                1.0 - speed.abs() * arc.radius / reference
-            } else {
+            let speed_loss = if reference == 0.0 {
                 0.0
+            } else {
+                1.0 - speed * surface(arc) / reference
             };
             let report = PulleyReport {
                 speed,

@@ -411,3 +411,20 @@ fn joint_by_multipliers_gives_the_motion_of_the_shared_node() {
         assert!(off < TO_SOLVER_TOLERANCE, "{name}: {off:.1e}");
     }
 }
+
+/// A load beyond what friction carries drags the driven pulley backwards: the summary says that it slips, and
+/// its loss of speed is more than all of it.
+#[test]
+fn a_pulley_dragged_backwards_is_told() {
+    let load = "pulley.driven.torque={kind=\"half-cosine\",from=0.0,to=-8.0,start=0.1,end=0.4}";
+    let text = include_str!("../../../examples/two_pulley.toml");
+    let changes = [load, "run.end_time=0.7"].map(|change| change.parse().expect("an override"));
+    let drive = hihna::input::parse("two_pulley.toml", text, &changes).expect("a drive");
+    let outcome = simulate(&drive, &mut |_| Flow::Continue).expect("the drive runs");
+    let summary = hihna::summary::Summary::new(&drive, &outcome);
+    let (_, driven) = &summary.steady.pulley.0[1];
+    assert!(driven.speed < 0.0 && driven.speed_loss > 1.0, "{driven:?}");
+    let warnings = summary.warnings.join("\n");
+    assert!(warnings.contains("slips on pulley `driven`"), "{warnings}");
+    assert_audit(&outcome);
+}

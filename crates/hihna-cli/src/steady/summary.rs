@@ -118,6 +118,11 @@ impl Summary {
                 "gravity plays no part in this theory; `hihna run` takes it into account".into(),
             );
         }
+        if drive.pulley.iter().any(|p| !p.irregularity.is_empty()) {
+            summary.warnings.push(
+                "the irregularity of speeds plays no part in steady running; `hihna run` takes it into account".into(),
+            );
+        }
         match answer {
             Answer::Running(running) => {
                 "the drive runs: every pulley sticks somewhere".clone_into(&mut summary.message);

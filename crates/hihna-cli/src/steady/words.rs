@@ -126,7 +126,7 @@ impl Steady {
             "stick",
             "wrap",
             "hub force",
-            "power",
+            "power taken",
             "speed loss",
         ];
         let mut pulleys = columns(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);

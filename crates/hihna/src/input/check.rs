@@ -2,7 +2,7 @@
 
 use toml::Value;
 
-use crate::input::document::{Node, NodeValue};
+use crate::input::document::{Node, NodeValue, readable};
 use crate::input::problem::{FieldPath, InputError, Problem, nearest, quoted};
 use crate::input::shape::{Bounds, Field, Shape};
 use crate::units::{Dimension, QuantityError};
@@ -134,11 +134,8 @@ impl Checker {
 
     fn range(&mut self, shape: &Shape, bounds: &Bounds, value: f64, unit: &str, path: &FieldPath) {
         if let Some(demand) = bounds.broken_by(value, unit) {
-            let amount = if unit.is_empty() {
-                value.to_string()
-            } else {
-                format!("{value} {unit}")
-            };
+            let amount = format!("{} {unit}", readable(value));
+            let amount = amount.trim_end();
             self.ranges.push(
                 Problem::new(path.clone(), format!("`{path}` {demand}, but is {amount}"))
                     .expected(shape.expectation()),

@@ -102,7 +102,7 @@ pub(crate) fn parse(name: &str, text: &str) -> Result<Node, InputErrors> {
     if errors.is_empty() {
         return Ok(Node {
             value: table_value(table.get_ref(), &source, 0),
-            place: None,
+            place: Some(Place { source, span: 0..0 }),
             name_place: None,
         });
     }
@@ -271,11 +271,20 @@ impl NodeValue {
         match self {
             Self::Text(text) => format!("the text {text:?}"),
             Self::Integer(integer) => format!("the number {integer}"),
-            Self::Float(float) => format!("the number {float}"),
+            Self::Float(float) => format!("the number {}", readable(*float)),
             Self::Flag(flag) => flag.to_string(),
             Self::Date => "a date".to_owned(),
             Self::List(items) => format!("a list of {}", items.len()),
             Self::Table(_) => "a table".to_owned(),
         }
+    }
+}
+
+/// A number without hundreds of zeros.
+pub(crate) fn readable(number: f64) -> String {
+    if number == 0.0 || (1.0e-5..1.0e9).contains(&number.abs()) || !number.is_finite() {
+        number.to_string()
+    } else {
+        format!("{number:e}")
     }
 }

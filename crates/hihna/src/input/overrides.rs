@@ -118,7 +118,14 @@ impl Override {
         if rest.is_empty() {
             drop_alternatives(name, &known, entries);
         }
-        if !entries.iter().any(|(entry, _)| entry == name) {
+        let new = !entries.iter().any(|(entry, _)| entry == name);
+        if let (true, Shape::List(..), [item, ..]) = (new, &field.shape, rest) {
+            let message = format!("the drive file has no `{place}`, so it has no item `{item}`");
+            let help = format!("set it as a whole: {SOURCE_NAME} '{place}=[...]'");
+            let problem = Problem::new(place, message).expected(field.shape.expectation());
+            return Err(Box::new(problem.help(help)));
+        }
+        if new {
             let key = Some(self.key_place());
             let empty = Node {
                 value: NodeValue::Table(Vec::new()),
@@ -127,10 +134,14 @@ impl Override {
             };
             entries.push((name.to_owned(), empty));
         }
-        match entries.iter_mut().find(|(entry, _)| entry == name) {
+        let done = match entries.iter_mut().find(|(entry, _)| entry == name) {
             Some((_, node)) => self.descend(rest, value, &field.shape, node, &place),
             None => Ok(()),
+        };
+        if done.is_err() && new {
+            entries.pop();
         }
+        done
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rules that involve several fields of a drive. Ranges of single fields are attributes of `Drive`.
 
 use crate::assemble::{AssemblyError, Mounting, closable, contraction};
-use crate::drive::{Belt, BeltElement, Drive, Pulley, Run, Step};
+use crate::drive::{Belt, BeltElement, Drive, Pulley, Run, Step, Surface};
 use crate::input::check::own_name;
 use crate::input::problem::{FieldPath, Problem, quoted};
 use crate::input::spatial;
@@ -30,6 +30,7 @@ pub(crate) fn problems(drive: &Drive) -> Vec<Problem> {
         name(pulley, &drive.pulley[..i], &path, &mut problems);
         overlap(pulley, &drive.pulley[..i], &path, &mut problems);
         motion(pulley, &path, &mut problems);
+        thickness(drive, pulley, &path, &mut problems);
     }
     spatial::problems(drive, &mut problems);
     span_names(&drive.pulley, &mut problems);
@@ -260,6 +261,25 @@ fn overlap(pulley: &Pulley, before: &[Pulley], path: &FieldPath, problems: &mut 
                     .help("move one of the pulleys or make it smaller"),
             );
         }
+    }
+}
+
+/// A belt that touches with its centre line is bent about the pulley's radius: half of its thickness must
+/// find room there.
+fn thickness(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
+    let half = 0.5 * drive.belt.thickness;
+    if drive.contact.surface == Surface::CentreLine && half >= pulley.radius {
+        problems.push(
+            Problem::new(
+                path.field("radius"),
+                format!(
+                    "the belt is too thick for `{path}`: half of its thickness, {half} m, is not less than the radius, {} m",
+                    pulley.radius
+                ),
+            )
+            .expected(format!("a radius above {half} m"))
+            .help("the radius reaches to the belt's centre line; with `contact.surface = \"face\"` it is that of the pulley itself"),
+        );
     }
 }
 

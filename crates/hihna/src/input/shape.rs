@@ -164,9 +164,13 @@ impl Shape {
                 dimension.unit,
                 dimension.example
             ),
-            Self::Count(bounds) => match bounds.least {
-                Some((least, _)) => format!("a whole number of at least {least}"),
-                None => "a whole number".to_owned(),
+            Self::Count(bounds) => match (bounds.least, bounds.greatest) {
+                (Some((least, _)), Some((most, _))) => {
+                    format!("a whole number from {least} to {most}")
+                }
+                (Some((least, _)), None) => format!("a whole number of at least {least}"),
+                (None, Some((most, _))) => format!("a whole number of at most {most}"),
+                (None, None) => "a whole number".to_owned(),
             },
             Self::Flag => "true or false".to_owned(),
             Self::Text => "text in quotes".to_owned(),

@@ -20,9 +20,15 @@ pub(super) fn place(
     }
     let node = coordinate / dof;
     let position = [q[node * dof], q[node * dof + 1]];
-    let (from, to) = nearest_pulleys(layout, position);
+    let (distance, (from, to)) = nearest_pulleys(layout, position);
     let at = format!("node {node} at ({:.4}, {:.4}) m", position[0], position[1]);
-    if from == to {
+    let smallest = layout
+        .arcs
+        .iter()
+        .fold(f64::INFINITY, |r, arc| r.min(arc.radius));
+    if distance > smallest {
+        format!("where the belt has left its path by {distance:.3} m, {at}")
+    } else if from == to {
         format!("on pulley `{}`, {at}", drive.pulley[from].name)
     } else {
         format!(
@@ -32,8 +38,9 @@ pub(super) fn place(
     }
 }
 
-/// The pulley nearest to `position`, twice, or the two at the ends of the span that is nearer.
-fn nearest_pulleys(layout: &Layout, position: [f64; 2]) -> (usize, usize) {
+/// How far `position` is from the path, and the pulley nearest to it, twice, or the two at the ends of the
+/// span that is nearer.
+fn nearest_pulleys(layout: &Layout, position: [f64; 2]) -> (f64, (usize, usize)) {
     let to_arc = layout.arcs.iter().map(|arc| {
         let (dx, dy) = (position[0] - arc.center[0], position[1] - arc.center[1]);
         ((dx.hypot(dy) - arc.radius).abs(), (arc.pulley, arc.pulley))
@@ -49,5 +56,5 @@ fn nearest_pulleys(layout: &Layout, position: [f64; 2]) -> (usize, usize) {
     to_arc
         .chain(to_span)
         .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or((0, 0), |(_, pulleys)| pulleys)
+        .unwrap_or_default()
 }

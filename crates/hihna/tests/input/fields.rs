@@ -95,6 +95,7 @@ fn missing_fields_and_tables() {
     ] {
         assert!(errors.contains(part), "{errors}");
     }
+    assert_eq!(errors.matches("bad.toml:1:1").count(), 3, "{errors}");
 }
 
 #[test]
@@ -103,7 +104,7 @@ fn wrong_types() {
         &with("elements = 20", "elements = 20.5"),
         "20.5",
         "belt.elements",
-        &["the number 20.5", "a whole number of at least 3"],
+        &["the number 20.5", "a whole number from 3 to 100000"],
     );
     fails(
         &with("elements = 20", "elements = \"20\""),

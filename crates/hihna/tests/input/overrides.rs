@@ -107,6 +107,10 @@ fn overrides_that_fail() {
     override_fails("belt.elements=two", &["whole number"]);
     override_fails("=1", &["there is no field"]);
     override_fails(
+        "gravity.1=-9.81",
+        &["no `gravity`", "a list of 2", "--set 'gravity=[...]'"],
+    );
+    override_fails(
         "run.profile_times=[9]",
         &["run.profile_times", "outside the run"],
     );

@@ -281,9 +281,10 @@ fn drive() -> impl Strategy<Value = Drive> {
             if contact.surface == Surface::Face {
                 belt.thickness = 1.0e-6;
             }
+            let smallest = pulley.iter().fold(f64::INFINITY, |r, p| r.min(p.radius));
+            belt.thickness = belt.thickness.min(smallest);
             tighten(&mut belt, &pulley, 0.99 * strain);
             // An element turns by less than half a turn around the smallest pulley.
-            let smallest = pulley.iter().fold(f64::INFINITY, |r, p| r.min(p.radius));
             let path = Layout::new(&pulley).map_or(0.0, |layout| layout.length);
             #[expect(
                 clippy::cast_possible_truncation,

@@ -49,6 +49,27 @@ fn pulleys() {
     );
 }
 
+/// With its centre line on the pulley a belt of 0.17 m reaches beyond the axis of 0.08125 m; with its face there
+/// is room, and the path is longer by 2 pi times half of the thickness.
+#[test]
+fn belts_too_thick_for_a_pulley() {
+    let thick = |more: &str| {
+        with("thickness = \"10 mm\"", "thickness = 0.17")
+            .replace("points = 7", &format!("points = 7\n{more}"))
+    };
+    let errors = input::parse("bad.toml", &thick(""), &[])
+        .unwrap_err()
+        .to_string();
+    assert_eq!(
+        errors.matches("too thick for `pulley.").count(),
+        2,
+        "{errors}"
+    );
+    assert!(errors.contains("a radius above 0.085 m"), "{errors}");
+    let fits = thick("surface = \"face\"").replace("\"1.2727 m\"", "\"1.8 m\"");
+    assert!(input::parse("good.toml", &fits, &[]).is_ok());
+}
+
 #[test]
 fn belts_that_cannot_be_mounted() {
     // Path: twice the distance of the centres and once the circumference, 0.765764 + 0.510509 m.

@@ -19,7 +19,7 @@ pub struct PulleySummary<D = f64> {
     pub torque: D,
     /// External torque [N m].
     pub external_torque: D,
-    /// Power of the external torque, negative where power is taken out [W].
+    /// Power that the belt gives to the pulley, negative on a driver [W].
     pub power: D,
     /// Force of the belt on the pulley [N]; with model `centrifugal` without the stretching
     /// acceleration's small share.
@@ -50,7 +50,7 @@ pub struct SpanSummary<D = f64> {
     pub pressing_tension: D,
     /// Engineering strain [-].
     pub strain: D,
-    /// Speed of the belt, positive along its motion [m/s].
+    /// Speed of the belt, positive in the order of the pulleys [m/s].
     pub speed: D,
     /// Length [m].
     pub length: D,
@@ -92,7 +92,7 @@ impl DriveString {
             speed: state.speed * rotation,
             torque: -state.torque * rotation,
             external_torque: state.torque * rotation,
-            power: state.power,
+            power: -state.power,
             hub_force: [0, 1].map(|axis| pull(i, axis) - pull(before, axis)),
             slip_speed: state.slip_speed * rotation,
             wrap_angle: path.wraps[i],
@@ -115,7 +115,7 @@ impl DriveString {
             tension: state.tension,
             pressing_tension: state.pressing_tension,
             strain: state.strain,
-            speed: state.speed,
+            speed: state.speed * self.direction,
             length: path.tangents[i].length,
         }
     }

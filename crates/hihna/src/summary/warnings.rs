@@ -1,0 +1,37 @@
+//! What the means of a run tell about its drive, in words.
+
+use super::Report;
+use crate::drive::Drive;
+
+/// Part of the wrap that touches where a belt is said to have lifted off, and of the contact that slips where
+/// a belt is said to slip.
+const HALF: f64 = 0.5;
+
+/// Pulleys that the belt has left or slips on as a whole.
+pub(super) fn of_running(drive: &Drive, steady: &Report) -> Vec<String> {
+    let mut warnings = Vec::new();
+    // What a belt loses by its stretch alone is less than its greatest strain.
+    let stretch = steady
+        .span
+        .0
+        .iter()
+        .fold(0.0, |most, (_, span)| f64::max(most, span.strain));
+    for (pulley, (name, report)) in drive.pulley.iter().zip(&steady.pulley.0) {
+        let (contact, wrap) = (report.contact_angle, report.wrap_angle);
+        if contact < HALF * wrap {
+            warnings.push(format!(
+                "the belt touches pulley `{name}` on {:.0} of {:.0} degrees only: it has lifted off or gone slack",
+                contact.to_degrees(),
+                wrap.to_degrees()
+            ));
+        }
+        let loss = report.speed_loss;
+        if report.slip_angle > HALF * contact && loss.abs() > stretch {
+            warnings.push(format!(
+                "the belt slips on pulley `{name}`: {:.1} % of its speed, more than it stretches; the torque is more than friction carries",
+                100.0 * loss
+            ));
+        }
+    }
+    warnings
+}
