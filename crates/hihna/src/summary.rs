@@ -227,7 +227,7 @@ impl Summary {
         let last = outcome.history.rows().next_back().map_or(end, |row| row[0]);
         let steady = report(drive, outcome, (1.0 - STEADY_PART) * end, end);
         let mut warnings: Vec<_> = outcome.warnings.iter().map(ToString::to_string).collect();
-        warnings.extend(warnings::of_running(drive, &steady));
+        warnings.extend(warnings::of_running(&steady));
         Self {
             title: drive.title.clone(),
             model: Model {

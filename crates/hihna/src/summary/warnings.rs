@@ -1,14 +1,13 @@
 //! What the means of a run tell about its drive, in words.
 
 use super::Report;
-use crate::drive::Drive;
 
 /// Part of the wrap that touches where a belt is said to have lifted off, and of the contact that slips where
 /// a belt is said to slip.
 const HALF: f64 = 0.5;
 
 /// Pulleys that the belt has left or slips on as a whole.
-pub(super) fn of_running(drive: &Drive, steady: &Report) -> Vec<String> {
+pub(super) fn of_running(steady: &Report) -> Vec<String> {
     let mut warnings = Vec::new();
     // What a belt loses by its stretch alone is less than its greatest strain.
     let stretch = steady
@@ -16,7 +15,7 @@ pub(super) fn of_running(drive: &Drive, steady: &Report) -> Vec<String> {
         .0
         .iter()
         .fold(0.0, |most, (_, span)| f64::max(most, span.strain));
-    for (pulley, (name, report)) in drive.pulley.iter().zip(&steady.pulley.0) {
+    for (name, report) in &steady.pulley.0 {
         let (contact, wrap) = (report.contact_angle, report.wrap_angle);
         if contact < HALF * wrap {
             warnings.push(format!(
