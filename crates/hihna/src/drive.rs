@@ -475,6 +475,13 @@ pub struct Run {
     #[serde(skip_serializing_if = "is_the_middle")]
     #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0, "maximum" = 1.0))]
     pub profile_line: f64,
+    /// Time between the frames of the moving belt [s]; absent: no frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "units::time", extend("exclusiveMinimum" = 0.0))]
+    pub frame_interval: Option<f64>,
+    /// Time of the first frame [s].
+    #[schemars(schema_with = "units::time", extend("minimum" = 0.0))]
+    pub frame_start: f64,
 }
 
 /// The time step: chosen by the program, or fixed.
@@ -530,6 +537,8 @@ impl Default for Run {
             start: Start::Rest,
             profile_times: Vec::new(),
             profile_line: MIDDLE,
+            frame_interval: None,
+            frame_start: 0.0,
         }
     }
 }

@@ -58,6 +58,8 @@ pub struct Outcome {
     pub history: History,
     /// The belt at the profile times.
     pub profile: Vec<ProfileRow>,
+    /// The belt at the times of the frames.
+    pub frames: Vec<ProfileRow>,
     /// What the stepping cost.
     pub statistics: Statistics,
     /// CPU time of the stepping alone, without the rows of the records [s].
@@ -236,6 +238,18 @@ fn run<E: Element, L: PulleyLaw<E>>(
 
     let mut recorder = Recorder::new(drive, &assembly);
     let start = recorder.start(drive, &assembly, settled);
+    tracing::info!(
+        iterations = start.iterations,
+        tension = start.tension,
+        penetration = start.penetration,
+        "settled on the pulleys"
+    );
+    tracing::info!(
+        integrator = control::name(control.method),
+        step = control.step,
+        newton_tolerance = control.newton_tolerance,
+        "stepping"
+    );
     let mut steps = 0;
     let mut stopped = None;
     let mut motion = assembly.motion.clone();
@@ -281,11 +295,20 @@ fn run<E: Element, L: PulleyLaw<E>>(
     }
     let cpu_seconds = (cpu.elapsed().saturating_sub(recorder.recording)).as_secs_f64();
     let audit = recorder.audit(drive);
+    tracing::info!(
+        steps = statistics.steps,
+        halved = statistics.halved_steps,
+        fallback = statistics.fallback_steps,
+        energy_residual = audit.energy_residual,
+        torque_residual = audit.torque_residual,
+        "done"
+    );
     Ok(Outcome {
         start,
         audit,
         history: recorder.history,
         profile: recorder.profile,
+        frames: recorder.frames,
         statistics,
         cpu_seconds,
         wall_seconds: wall.elapsed().as_secs_f64(),
