@@ -231,7 +231,7 @@ fn run<E: Element, L: PulleyLaw<E>>(
     let control = control::control(drive, &assembly.mounting);
     let count = end / control.step;
     // Also where the step is no number.
-    if !(count <= MOST_STEPS) {
+    if count.is_nan() || count > MOST_STEPS {
         let step = control.step;
         return Err(RunError::TooManySteps { end, count, step });
     }
