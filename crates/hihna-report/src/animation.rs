@@ -43,6 +43,9 @@ struct Disc {
     radius: f64,
     /// Angle at each frame [rad].
     angle: Vec<f32>,
+    /// Centre at each frame [m], of a pulley that moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centers: Option<Vec<[f32; 2]>>,
 }
 
 /// The animation of `frames`; `None` if there are fewer than two.
@@ -96,6 +99,10 @@ pub fn animation(
             center: pulley.center,
             radius: pulley.radius,
             angle: angles(history, &pulley.name, &times),
+            centers: pulley.displacement.as_ref().map(|_| {
+                let middles = times.iter().map(|time| pulley.middle(*time));
+                middles.map(|[x, y, _]| [short(x), short(y)]).collect()
+            }),
         })
         .collect();
     Some(Animation {

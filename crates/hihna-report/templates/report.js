@@ -140,10 +140,11 @@
       pen.textAlign = "center";
       pen.font = "500 13px system-ui, sans-serif";
 
+      const center = (p) => (p.centers ? p.centers[frame] : p.center);
       for (const p of pulleys) {
         const r = p.radius * scale;
         pen.save();
-        pen.translate(X(p.center[0]), Y(p.center[1]));
+        pen.translate(X(center(p)[0]), Y(center(p)[1]));
         pen.beginPath();
         pen.arc(0, 0, r, 0, 2 * Math.PI);
         pen.fillStyle = colour("--pulley");
@@ -215,15 +216,16 @@
       pen.fillStyle = colour("--ink");
       for (const p of pulleys) {
         const r = p.radius * scale;
+        const [x, y] = center(p);
         const inside = pen.measureText(p.name).width < 1.7 * r;
         if (inside) {
           // A plate behind the name keeps the spokes from striking it through.
           const half = pen.measureText(p.name).width / 2 + 5;
           pen.fillStyle = colour("--pulley");
-          pen.fillRect(X(p.center[0]) - half, Y(p.center[1]) - 10, 2 * half, 20);
+          pen.fillRect(X(x) - half, Y(y) - 10, 2 * half, 20);
           pen.fillStyle = colour("--ink");
         }
-        pen.fillText(p.name, X(p.center[0]), inside ? Y(p.center[1]) + 4.5 : Y(p.center[1]) + r + 22);
+        pen.fillText(p.name, X(x), inside ? Y(y) + 4.5 : Y(y) + r + 22);
       }
     };
 

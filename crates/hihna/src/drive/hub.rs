@@ -57,6 +57,16 @@ fn still() -> Profile {
 }
 
 impl Pulley {
+    /// Its middle [m] at `time` [s], displacement and offset taken in.
+    pub fn middle(&self, time: f64) -> [f64; 3] {
+        let moved = self
+            .displacement
+            .as_ref()
+            .map_or([0.0; 3], |displacement| displacement.at(time)[0]);
+        let [x, y] = self.center;
+        [x + moved[0], y + moved[1], self.offset + moved[2]]
+    }
+
     /// Unit vector of its axis: z turned by the tilt about x, then about y.
     pub fn axis(&self) -> [f64; 3] {
         let [(sx, cx), (sy, cy)] = self.tilt.map(f64::sin_cos);

@@ -31,7 +31,7 @@ pub(super) fn write(folder: &Folder, drive: &Drive, outcome: &Outcome) -> Result
     for (i, frame) in frames.enumerate() {
         let time = frame[0].time;
         let parts = [
-            ("belt", belt(frame, drive.belt.width)),
+            ("belt", belt(frame, drive)),
             ("pulleys", pulleys(drive, &outcome.history, time)),
         ];
         for (part, (name, grid)) in parts.iter().enumerate() {
@@ -58,14 +58,15 @@ pub(super) fn is_frame(name: &OsStr) -> bool {
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
-/// The belt of one frame.
-fn belt(rows: &[ProfileRow], width: f64) -> Grid {
+/// The belt of one frame. Rows lie on the line of the belt that the profile shows.
+fn belt(rows: &[ProfileRow], drive: &Drive) -> Grid {
+    let (width, line) = (drive.belt.width, drive.run.profile_line);
     let edges =
         |value: fn(&ProfileRow) -> f64| rows.iter().flat_map(|row| [value(row); 2]).collect();
     let mut grid = Grid {
         points: rows
             .iter()
-            .flat_map(|row| [-0.5, 0.5].map(|side| [row.x, row.y, row.z + side * width]))
+            .flat_map(|row| [-line, 1.0 - line].map(|side| [row.x, row.y, row.z + side * width]))
             .collect(),
         fields: vec![
             ("material_coordinate", edges(|row| row.material_coordinate)),
@@ -107,7 +108,7 @@ fn pulleys(drive: &Drive, history: &History, time: f64) -> Grid {
                 .unwrap_or(f64::NAN)
         };
         let angle = of("angle");
-        let marks = add_pulley(&mut grid, pulley, angle, drive.belt.width);
+        let marks = add_pulley(&mut grid, pulley, (time, angle), drive.belt.width);
         let count = marks.len();
         fields[0].1.extend(std::iter::repeat_n(p as f64, count));
         fields[1].1.extend(marks);
@@ -122,23 +123,33 @@ fn pulleys(drive: &Drive, history: &History, time: f64) -> Grid {
     grid
 }
 
-/// Adds a pulley; returns for each of its points the angle on the pulley itself [rad].
-fn add_pulley(grid: &mut Grid, pulley: &Pulley, angle: f64, width: f64) -> Vec<f64> {
-    let [x, y] = pulley.center;
+/// Adds a pulley at a time and an angle, as far along its axis as the belt is wide; returns for each of its points the
+/// angle on the pulley itself [rad].
+fn add_pulley(grid: &mut Grid, pulley: &Pulley, (time, angle): (f64, f64), width: f64) -> Vec<f64> {
+    let middle = pulley.middle(time);
+    let axis = pulley.axis();
+    // x turned by the tilt about y, and what completes the base: x and y of a pulley that is not tilted.
+    let (sine, cosine) = pulley.tilt[1].sin_cos();
+    let across = [cosine, 0.0, -sine];
+    let upwards = [
+        axis[1] * across[2] - axis[2] * across[1],
+        axis[2] * across[0] - axis[0] * across[2],
+        axis[0] * across[1] - axis[1] * across[0],
+    ];
+    let [slope, curvature] = pulley.shape();
     let first = grid.points.len();
-    grid.points.push([x, y, 0.0]);
+    grid.points.push(middle);
     let mut marks = vec![0.0];
     // The first column comes twice, so that the angle need not jump back within a facet.
     for k in 0..=FACETS {
         let mark = TAU * f64::from(k) / f64::from(FACETS);
         let (sine, cosine) = (angle + mark).sin_cos();
         for side in [-0.5, 0.0, 0.5] {
-            let place = [
-                x + pulley.radius * cosine,
-                y + pulley.radius * sine,
-                side * width,
-            ];
-            grid.points.push(place);
+            let along = side * width;
+            let radius = pulley.radius + along * (slope - 0.5 * curvature * along);
+            grid.points.push(std::array::from_fn(|i| {
+                middle[i] + along * axis[i] + radius * (cosine * across[i] + sine * upwards[i])
+            }));
             marks.push(mark);
         }
     }
@@ -262,6 +273,27 @@ mod tests {
         }
     }
 
+    /// The rim of a tilted pulley that moves lies around its axis, at its radius.
+    #[test]
+    fn pulleys_in_space_are_where_they_are() {
+        let text = include_str!("../../../../examples/two_pulley.toml");
+        let drive = crate::input::parse("drive", text, &[]).unwrap();
+        let mut pulley = drive.pulley[0].clone();
+        pulley.tilt = [0.1, -0.2];
+        pulley.offset = 0.03;
+        let mut grid = Grid::default();
+        add_pulley(&mut grid, &pulley, (0.0, 1.0), 0.02);
+        let (axis, middle) = (pulley.axis(), pulley.middle(0.0));
+        assert_eq!(middle, [pulley.center[0], pulley.center[1], 0.03]);
+        for (i, point) in grid.points[1..].iter().enumerate() {
+            let arm: [f64; 3] = std::array::from_fn(|k| point[k] - middle[k]);
+            let along: f64 = arm.iter().zip(axis).map(|(a, p)| a * p).sum();
+            let square: f64 = arm.iter().map(|a| a * a).sum();
+            assert!((along - [-0.01, 0.0, 0.01][i % 3]).abs() < 1e-15);
+            assert!(((square - along * along).sqrt() - pulley.radius).abs() < 1e-15);
+        }
+    }
+
     /// A file holds as many bytes as its arrays announce, each where its head says.
     #[test]
     fn arrays_lie_at_their_offsets() {
@@ -270,7 +302,10 @@ mod tests {
             tension: 10.0 + x,
             ..ProfileRow::default()
         };
-        let grid = belt(&[row(0.0), row(1.0), row(2.0)], 0.5);
+        let text = include_str!("../../../../examples/two_pulley.toml");
+        let mut drive = crate::input::parse("drive", text, &[]).unwrap();
+        drive.belt.width = 0.5;
+        let grid = belt(&[row(0.0), row(1.0), row(2.0)], &drive);
         assert_eq!(grid.points[1], [0.0, 0.0, 0.25]);
         let file = grid.to_vtu(0.5);
         let start = file.windows(3).position(|w| w == b"\n_\x90").unwrap() + 2;
