@@ -11,6 +11,7 @@ use hihna::simulate::RunError;
 use hihna::steady::running::RunningError;
 use hihna::steady::string::StringError;
 use hihna::validate::{CatalogueError, UnknownCase};
+use hihna_report::ReportError;
 use miette::{
     Diagnostic, LabeledSpan, MietteHandlerOpts, NamedSource, Report, Severity, SourceCode,
 };
@@ -62,6 +63,9 @@ pub enum Failure {
         /// Where the results are.
         folder: PathBuf,
     },
+    /// A result folder could not be made a page.
+    #[error(transparent)]
+    Report(#[from] ReportError),
     /// No validation case has this name.
     #[error(transparent)]
     UnknownCase(#[from] UnknownCase),
@@ -90,6 +94,7 @@ impl Failure {
             | Self::Argument { .. }
             | Self::Folder(_)
             | Self::UnknownCase(_)
+            | Self::Report(ReportError::Read(_))
             | Self::Running(RunningError::Assembly(_))
             | Self::Run(RunError::Assembly(_)) => ExitCode::from(2),
             _ => ExitCode::from(1),
@@ -146,6 +151,7 @@ impl Failure {
                 ));
             }
             Self::UnknownCase(_) => "`hihna validate --list` prints the cases",
+            Self::Report(ReportError::Read(_)) => "name a folder that `hihna run` has written",
             Self::Steady(_) => {
                 "check stiffness, tension and torques of the drive for slips of the decimal point"
             }

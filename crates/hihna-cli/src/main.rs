@@ -4,8 +4,9 @@ mod check;
 mod completions;
 mod diagnostics;
 mod drive_source;
+mod loudness;
 mod progress;
-mod quantities;
+mod report;
 mod run;
 mod schema;
 mod standard_output;
@@ -17,6 +18,9 @@ mod validate;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use hihna::quantities;
+
+use loudness::Loudness;
 
 /// Simulates belt drives that are described in one text file.
 #[derive(Debug, Parser)]
@@ -24,6 +28,9 @@ use clap::{Parser, Subcommand};
 struct Program {
     #[command(subcommand)]
     command: Command,
+
+    #[command(flatten)]
+    loudness: Loudness,
 }
 
 const AFTER_HELP: &str = "\
@@ -36,24 +43,27 @@ enum Command {
     Validate(validate::Arguments),
     Check(check::Arguments),
     Schema(schema::Arguments),
+    Report(report::Arguments),
     Completions(completions::Arguments),
 }
 
 fn main() -> ExitCode {
-    let command = Program::parse().command;
+    let Program { command, loudness } = Program::parse();
+    loudness.start_logs();
     let json = match &command {
         Command::Run(arguments) => arguments.json,
         Command::Steady(arguments) => arguments.json,
         Command::Validate(arguments) => arguments.json,
         Command::Check(arguments) => arguments.json,
-        Command::Schema(_) | Command::Completions(_) => false,
+        Command::Schema(_) | Command::Report(_) | Command::Completions(_) => false,
     };
     let result = match command {
-        Command::Run(arguments) => run::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments, loudness),
         Command::Steady(arguments) => steady::steady(&arguments),
-        Command::Validate(arguments) => validate::validate(&arguments),
+        Command::Validate(arguments) => validate::validate(&arguments, loudness),
         Command::Check(arguments) => check::check(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
     };
     match result {

@@ -18,13 +18,9 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// An empty bar; `quiet` draws none.
-    pub fn new(quiet: bool) -> Self {
-        let target = if quiet {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
+    /// An empty bar, drawn if `visible`.
+    pub fn new(visible: bool) -> Self {
+        let target = target(visible);
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -76,11 +72,12 @@ pub struct CountBar {
 }
 
 impl CountBar {
-    /// An empty bar for `count` things.
-    pub fn new(count: usize) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
+    /// An empty bar for `count` things, drawn if `visible`.
+    pub fn new(count: usize, visible: bool) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(count as u64), target(visible));
         // The template is fixed; without it there is a plain bar.
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos} of {len}  {msg}") {
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos} of {len}  {elapsed}  {msg}")
+        {
             bar.set_style(style);
         }
         bar.tick();
@@ -99,6 +96,14 @@ impl CountBar {
     }
 }
 
+fn target(visible: bool) -> ProgressDrawTarget {
+    if visible {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,7 +111,7 @@ mod tests {
     /// The bar takes any progress, also of a run of no length.
     #[test]
     fn any_progress_can_be_shown() {
-        let mut bar = Bar::new(true);
+        let mut bar = Bar::new(false);
         for (time, end_time) in [
             (0.0, 1.0),
             (0.5, 1.0),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
+use hihna::frames;
 use hihna::record;
 use hihna::simulate::{Flow, simulate};
 use hihna::summary::Summary;
@@ -12,11 +13,13 @@ use serde::Serialize;
 
 use crate::diagnostics::{Failure, print_warning};
 use crate::drive_source::DriveSource;
+use crate::loudness::Loudness;
 use crate::progress::Bar;
 use crate::{standard_output, summary};
 
 /// Simulate a drive, write a result folder and print a summary.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub struct Arguments {
     #[command(flatten)]
     source: DriveSource,
@@ -29,13 +32,17 @@ pub struct Arguments {
     #[arg(long)]
     force: bool,
 
+    /// Add `report.html`: drawing, tables, charts and the belt in motion
+    #[arg(long)]
+    report: bool,
+
+    /// Add the belt in motion for ParaView, `belt.pvd`
+    #[arg(long)]
+    vtk: bool,
+
     /// Print one JSON object, as in `summary.json`, to standard output
     #[arg(long)]
     pub json: bool,
-
-    /// Show neither progress nor summary
-    #[arg(long)]
-    quiet: bool,
 }
 
 /// What `--json` prints: the summary and where the files are.
@@ -47,8 +54,11 @@ struct Answer<'a> {
 }
 
 /// Runs, records and tells.
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let drive = arguments.source.load()?;
+pub fn run(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
+    let mut drive = arguments.source.load()?;
+    if arguments.report || arguments.vtk {
+        frames::choose(&mut drive);
+    }
     let folder = arguments
         .out
         .clone()
@@ -58,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))?;
-    let mut bar = Bar::new(arguments.quiet);
+    let mut bar = Bar::new(loudness.shows_progress());
     let outcome = simulate(&drive, &mut |progress| {
         bar.update(progress);
         if interrupted.load(Ordering::Relaxed) {
@@ -70,7 +80,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     bar.finish();
     let outcome = outcome?;
 
-    record::write(&folder, &drive, &outcome, arguments.force).map_err(Failure::Record)?;
+    let options = record::Options {
+        overwrite: arguments.force,
+        vtk: arguments.vtk,
+    };
+    record::write(&folder, &drive, &outcome, options).map_err(Failure::Record)?;
+    if arguments.report {
+        hihna_report::write(&folder)?;
+    }
     let found = Summary::new(&drive, &outcome);
     for warning in &found.warnings {
         print_warning(warning);
@@ -80,8 +97,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             folder: folder.display().to_string(),
             summary: &found,
         })?;
-    } else if !arguments.quiet {
+    } else if !loudness.quiet {
         standard_output::print(&summary::in_words(&found, &folder))?;
+        if loudness.verbose {
+            standard_output::print(&summary::solver_in_words(&found))?;
+        }
     }
     if found.audit.passed {
         return Ok(());

@@ -6,7 +6,7 @@ use std::path::Path;
 use comfy_table::Table;
 use hihna::summary::{Report, Scatter, Summary};
 
-use crate::quantities::{degrees, percent, plain, with_prefix};
+use crate::quantities::{degrees, percent, plain, significant, with_prefix};
 use crate::tables::columns;
 
 /// What an engineer wants to know first.
@@ -66,6 +66,35 @@ pub fn in_words(summary: &Summary, folder: &Path) -> String {
     );
     let _ = writeln!(text, "Results: {}", folder.display());
     text
+}
+
+/// What the solution took: counts and times.
+pub fn solver_in_words(summary: &Summary) -> String {
+    let solver = &summary.solver;
+    let per_step = |count: usize| significant(count as f64 / solver.steps.max(1) as f64);
+    let mut table = columns(&["solver", "in all", "per step"], &[1, 2]);
+    let counts = [
+        ("force evaluations", solver.force_evaluations),
+        ("tangent evaluations", solver.tangent_evaluations),
+        ("factorizations", solver.factorizations),
+        ("halved steps", solver.halved_steps),
+        ("steps by the fall-back", solver.fallback_steps),
+    ];
+    for (name, count) in counts {
+        table.add_row([name.to_owned(), count.to_string(), per_step(count)]);
+    }
+    let cpu = solver.cpu_seconds;
+    table.add_row([
+        "processor, stepping alone".to_owned(),
+        with_prefix(cpu, "s"),
+        with_prefix(cpu / solver.steps.max(1) as f64, "s"),
+    ]);
+    table.add_row([
+        "clock, the whole run".to_owned(),
+        with_prefix(solver.wall_seconds, "s"),
+        String::new(),
+    ]);
+    format!("\n{}\n", table.trim_fmt())
 }
 
 /// Speeds, torques, hub loads, tensions where the belt runs on and off, slip and creep.

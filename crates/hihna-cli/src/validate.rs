@@ -7,6 +7,7 @@ use hihna::validate::{self, Case, Finding, Verdict};
 use serde::Serialize;
 
 use crate::diagnostics::Failure;
+use crate::loudness::Loudness;
 use crate::progress::CountBar;
 use crate::standard_output;
 use crate::tables::columns;
@@ -54,13 +55,13 @@ struct Report<'a> {
 }
 
 /// Computes, judges and tells; an error if any value is judged to differ.
-pub fn validate(arguments: &Arguments) -> Result<(), Failure> {
+pub fn validate(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
     let catalogue = validate::catalogue()?;
     let cases = validate::select(&catalogue, &arguments.cases)?;
     if arguments.list {
         return list(&cases, arguments.json);
     }
-    let bar = CountBar::new(cases.len());
+    let bar = CountBar::new(cases.len(), loudness.shows_progress());
     let findings = validate::run(&cases, |case| bar.done(&case.name));
     bar.finish();
     let passed = validate::passed(&findings);
@@ -71,7 +72,7 @@ pub fn validate(arguments: &Arguments) -> Result<(), Failure> {
         })?;
     } else if arguments.markdown {
         standard_output::print(&validate::markdown(&cases, &findings))?;
-    } else {
+    } else if !loudness.quiet {
         standard_output::print(&in_words(&cases, &findings))?;
     }
     let failed = findings

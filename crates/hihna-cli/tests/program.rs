@@ -118,6 +118,86 @@ fn the_summary_is_in_words() {
     assert_eq!(text(&quiet.stdout), "");
 }
 
+/// `--verbose` adds what the solver did; logs go to standard error, so that `--json` stays one object.
+#[test]
+fn the_solver_tells_what_it_does_if_asked() {
+    let folder = TempDir::new().unwrap();
+    let verbose = [&["run", "--verbose", "--out", "a"], SHORT.as_slice()].concat();
+    let output = hihna(&folder, &verbose);
+    for part in [
+        "force evaluations",
+        "factorizations",
+        "processor, stepping alone",
+    ] {
+        assert!(text(&output.stdout).contains(part), "{part}: {output:?}");
+    }
+    for part in ["settled", "stepping", "done"] {
+        assert!(text(&output.stderr).contains(part), "{part}: {output:?}");
+    }
+    let json = [&["run", "--json", "--out", "b"], SHORT.as_slice()].concat();
+    let output = program(folder.path())
+        .env("RUST_LOG", "hihna=info")
+        .args(&json)
+        .output()
+        .unwrap();
+    assert!(answer(&output)["solver"]["steps"].is_u64());
+    assert!(text(&output.stderr).contains("settled"), "{output:?}");
+    let both = hihna(&folder, &["run", "--quiet", "--verbose"]);
+    assert_eq!(status(&both), 2);
+}
+
+/// The page and ParaView's files stand in the folder, and one more run may replace it all.
+#[test]
+fn reports_and_frames_are_part_of_the_folder() {
+    let folder = TempDir::new().unwrap();
+    let here = folder.path().join("two_pulley-result");
+    for force in [&[][..], &["--force"]] {
+        let arguments = [&["run", "--quiet", "--report", "--vtk"], &SHORT[..], force].concat();
+        assert_eq!(status(&hihna(&folder, &arguments)), 0);
+        let all = names(&here);
+        for name in ["belt.pvd", "belt_00000.vtu", "frames.csv", "report.html"] {
+            assert!(all.iter().any(|found| found == name), "{name}: {all:?}");
+        }
+    }
+    let page = fs::read_to_string(here.join("report.html")).unwrap();
+    assert!(page.contains("Two-pulley drive of Table 3.1"));
+    fs::remove_file(here.join("report.html")).unwrap();
+    let output = hihna(&folder, &["report", "two_pulley-result"]);
+    assert_eq!(status(&output), 0);
+    assert!(text(&output.stdout).contains("report.html"));
+    assert_eq!(fs::read_to_string(here.join("report.html")).unwrap(), page);
+}
+
+#[test]
+fn a_report_needs_results() {
+    let folder = TempDir::new().unwrap();
+    let output = hihna(&folder, &["report", "nowhere"]);
+    assert_eq!(status(&output), 2);
+    assert!(
+        text(&output.stderr).contains("nowhere/drive.toml"),
+        "{output:?}"
+    );
+    fs::create_dir(folder.path().join("odd")).unwrap();
+    fs::write(folder.path().join("odd/drive.toml"), EXAMPLE).unwrap();
+    fs::write(folder.path().join("odd/summary.json"), "{}").unwrap();
+    fs::write(folder.path().join("odd/profile.csv"), "time\n").unwrap();
+    fs::write(
+        folder.path().join("odd/history.csv"),
+        "time,driver.speed\n0.0,x\n",
+    )
+    .unwrap();
+    let output = hihna(&folder, &["report", "odd"]);
+    assert_eq!(status(&output), 2);
+    assert!(text(&output.stderr).contains("history.csv"), "{output:?}");
+    // Numbers that were not found and columns that are missing leave gaps, not failures.
+    fs::write(
+        folder.path().join("odd/history.csv"),
+        "time,driver.speed\n0.0,\n",
+    )
+    .unwrap();
+    assert_eq!(status(&hihna(&folder, &["report", "odd"])), 0);
+}
+
 #[test]
 fn an_existing_folder_is_kept_unless_forced() {
     let folder = TempDir::new().unwrap();

@@ -1,11 +1,16 @@
 //! What the user states: belt, contact, pulleys, run. Plain data in SI units.
 
+mod hub;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::load::{ExternalTorque, Load};
 use crate::profile::{self, Profile};
 use crate::units;
+
+pub(crate) use hub::STEEPEST;
+pub use hub::{Crown, Displacement};
 
 /// A belt drive and how to run it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -377,51 +382,6 @@ pub struct Pulley {
     pub irregularity: Vec<Harmonic>,
 }
 
-/// Steepest tilt or taper [rad].
-pub(crate) const STEEPEST: f64 = 0.5;
-
-/// Motion of a pulley's centre: where it is, less where it starts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Displacement {
-    /// Along x [m].
-    #[serde(default = "zero_profile")]
-    #[schemars(schema_with = "profile::length")]
-    pub x: Profile,
-    /// Along y [m].
-    #[serde(default = "zero_profile")]
-    #[schemars(schema_with = "profile::length")]
-    pub y: Profile,
-    /// Along z [m]: of belts in space.
-    #[serde(default = "zero_profile")]
-    #[schemars(schema_with = "profile::length")]
-    pub z: Profile,
-}
-
-impl Displacement {
-    /// Displacement [m] and velocity [m/s] at `time` [s]; right-hand values at kinks.
-    pub fn at(&self, time: f64) -> [[f64; 3]; 2] {
-        let axes = [&self.x, &self.y, &self.z];
-        [
-            axes.map(|axis| axis.value(time)),
-            axes.map(|axis| axis.derivative(time)),
-        ]
-    }
-}
-
-/// The crown of a pulley: its radius is `radius` in the middle and `height` less at half of `width` from it,
-/// by a parabola.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Crown {
-    /// Height over the edges [m]; negative for a hollow pulley.
-    #[schemars(schema_with = "units::length")]
-    pub height: f64,
-    /// Width of the pulley [m].
-    #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
-    pub width: f64,
-}
-
 /// A harmonic of a prescribed speed: with the mean speed `w(t)` and its angle `a(t)` the pulley turns at
 /// `w (1 + sum amplitude cos(order a + phase))`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -443,26 +403,6 @@ impl Pulley {
     /// Whether the pulley's motion is prescribed.
     pub fn is_driver(&self) -> bool {
         self.speed.is_some() || self.angle.is_some()
-    }
-
-    /// Unit vector of its axis: z turned by the tilt about x, then about y.
-    pub fn axis(&self) -> [f64; 3] {
-        let [(sx, cx), (sy, cy)] = self.tilt.map(f64::sin_cos);
-        [sy * cx, -sx, cy * cx]
-    }
-
-    /// Slope of the radius along the axis in the middle [-], and its decrease [1/m].
-    pub fn shape(&self) -> [f64; 2] {
-        let curvature = self.crown.map_or(0.0, |crown| {
-            8.0 * crown.height / (crown.width * crown.width)
-        });
-        [self.taper.tan(), curvature]
-    }
-
-    /// Whether it is not a cylinder about z in the plane of the drive.
-    pub fn is_misaligned(&self) -> bool {
-        let straight = self.crown.is_none_or(|crown| crown.height == 0.0);
-        !straight || self.offset != 0.0 || self.tilt != [0.0, 0.0] || self.taper != 0.0
     }
 
     /// All that acts on it from outside of the drive.
@@ -557,6 +497,13 @@ pub struct Run {
     #[serde(skip_serializing_if = "is_the_middle")]
     #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0, "maximum" = 1.0))]
     pub profile_line: f64,
+    /// Time between the frames of the moving belt [s]; absent: no frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "units::time", extend("exclusiveMinimum" = 0.0))]
+    pub frame_interval: Option<f64>,
+    /// Time of the first frame [s].
+    #[schemars(schema_with = "units::time", extend("minimum" = 0.0))]
+    pub frame_start: f64,
 }
 
 /// The time step: chosen by the program, or fixed.
@@ -612,6 +559,8 @@ impl Default for Run {
             start: Start::Rest,
             profile_times: Vec::new(),
             profile_line: MIDDLE,
+            frame_interval: None,
+            frame_start: 0.0,
         }
     }
 }

@@ -69,6 +69,18 @@ impl History {
         }
     }
 
+    /// A history of the given rows; `None` if `values` do not fill whole rows.
+    #[must_use]
+    pub fn from_values(columns: Vec<String>, values: Vec<f64>) -> Option<Self> {
+        let whole = !columns.is_empty() && values.len().is_multiple_of(columns.len());
+        let spatial = columns.iter().any(|name| name.ends_with(".hub_force_z"));
+        whole.then_some(Self {
+            columns,
+            values,
+            spatial,
+        })
+    }
+
     /// Adds a row.
     pub(crate) fn push(
         &mut self,
@@ -147,6 +159,21 @@ impl History {
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         let index = self.columns.iter().position(|c| c == name)?;
         Some(self.rows().map(|row| row[index]).collect())
+    }
+
+    /// Column `name` at `time`, linear between the rows and constant outside.
+    #[must_use]
+    pub fn at(&self, name: &str, time: f64) -> Option<f64> {
+        let index = self.columns.iter().position(|c| c == name)?;
+        let after = self.rows().position(|row| row[0] >= time);
+        let row = |i: usize| self.rows().nth(i);
+        let (first, last) = match after {
+            None => return self.rows().next_back().map(|row| row[index]),
+            Some(0) => return row(0).map(|row| row[index]),
+            Some(i) => (row(i - 1)?, row(i)?),
+        };
+        let part = (time - first[0]) / (last[0] - first[0]);
+        Some(first[index] + part * (last[index] - first[index]))
     }
 
     /// Mean of column `name` over times in `[from, to]`, by the rows.

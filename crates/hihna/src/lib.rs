@@ -3,6 +3,7 @@
 pub mod assemble;
 pub mod contact;
 pub mod drive;
+pub mod frames;
 pub mod free_belt;
 pub mod friction;
 pub mod history;
@@ -12,6 +13,7 @@ pub mod load;
 pub mod number;
 pub mod observe;
 pub mod profile;
+pub mod quantities;
 pub mod record;
 pub mod simulate;
 pub mod steady;

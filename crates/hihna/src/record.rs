@@ -1,5 +1,8 @@
 //! The result folder: written beside its place, then renamed, so that it is whole or not there.
 
+mod read;
+mod vtk;
+
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,6 +14,8 @@ use crate::drive::Drive;
 use crate::input;
 use crate::simulate::Outcome;
 use crate::summary::Summary;
+
+pub use read::{ReadError, Results};
 
 /// A result folder that could not be written.
 #[derive(Debug, Error)]
@@ -58,14 +63,23 @@ pub fn check(dir: &Path, overwrite: bool) -> Result<(), RecordError> {
     Folder::new(dir, overwrite).map(drop)
 }
 
+/// What a result folder is to be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Replaces a result folder that stands in its place.
+    pub overwrite: bool,
+    /// Adds the frames as files for ParaView.
+    pub vtk: bool,
+}
+
 /// Writes `outcome` of `drive` to the folder `dir`.
 pub fn write(
     dir: &Path,
     drive: &Drive,
     outcome: &Outcome,
-    overwrite: bool,
+    options: Options,
 ) -> Result<(), RecordError> {
-    let folder = Folder::new(dir, overwrite)?;
+    let folder = Folder::new(dir, options.overwrite)?;
     folder.text("drive.toml", &input::to_toml(drive))?;
     folder.json("summary.json", &Summary::new(drive, outcome))?;
     folder.csv("history.csv", |writer| {
@@ -76,6 +90,12 @@ pub fn write(
             .try_for_each(|row| writer.serialize(row))
     })?;
     folder.rows("profile.csv", &outcome.profile)?;
+    if !outcome.frames.is_empty() {
+        folder.rows("frames.csv", &outcome.frames)?;
+        if options.vtk {
+            vtk::write(&folder, drive, outcome)?;
+        }
+    }
     folder.finish()
 }
 
@@ -105,12 +125,12 @@ impl Folder {
     }
 
     /// Adds a file of text.
-    pub fn text(&self, name: &'static str, text: &str) -> Result<(), RecordError> {
-        fs::write(self.files.path().join(name), text).map_err(|cause| self.refused(cause))
+    pub fn text(&self, name: &str, text: &str) -> Result<(), RecordError> {
+        self.bytes(name, text.as_bytes())
     }
 
-    /// Adds a file of bytes.
-    pub fn bytes(&self, name: &'static str, bytes: &[u8]) -> Result<(), RecordError> {
+    /// Adds a file.
+    pub fn bytes(&self, name: &str, bytes: &[u8]) -> Result<(), RecordError> {
         fs::write(self.files.path().join(name), bytes).map_err(|cause| self.refused(cause))
     }
 
@@ -195,12 +215,15 @@ fn check_free(place: &Path, overwrite: bool) -> Result<(), RecordError> {
     Ok(())
 }
 
-/// Files that a result folder may hold.
-const FILES: [&str; 6] = [
+/// Files that a result folder may hold, beside those of [`vtk`].
+const FILES: [&str; 9] = [
     "drive.toml",
     "summary.json",
     "history.csv",
     "profile.csv",
+    "frames.csv",
+    "belt.pvd",
+    "report.html",
     "map.csv",
     "map.parquet",
 ];
@@ -211,7 +234,10 @@ fn is_result_folder(place: &Path) -> bool {
     is_folder
         && fs::read_dir(place).is_ok_and(|mut entries| {
             entries.all(|entry| {
-                entry.is_ok_and(|entry| FILES.iter().any(|name| entry.file_name() == *name))
+                entry.is_ok_and(|entry| {
+                    let found = entry.file_name();
+                    FILES.iter().any(|name| found == *name) || vtk::is_frame(&found)
+                })
             })
         })
 }

@@ -61,6 +61,8 @@ pub struct Outcome {
     pub history: History,
     /// The belt at the profile times.
     pub profile: Vec<ProfileRow>,
+    /// The belt at the times of the frames.
+    pub frames: Vec<ProfileRow>,
     /// What the stepping cost.
     pub statistics: Statistics,
     /// CPU time of the stepping alone, without the rows of the records [s].
@@ -231,14 +233,25 @@ fn run<E: Element, L: PulleyLaw<E>>(
     release(&mut assembly)?;
     let control = control::control(drive, &assembly.mounting);
     let count = end / control.step;
-    // Also where the step is no number.
-    if !(count <= MOST_STEPS) {
+    if count.is_nan() || count > MOST_STEPS {
         let step = control.step;
         return Err(RunError::TooManySteps { end, count, step });
     }
 
     let mut recorder = Recorder::new(drive, &assembly);
     let start = recorder.start(drive, &assembly, settled);
+    tracing::info!(
+        iterations = start.iterations,
+        tension = start.tension,
+        penetration = start.penetration,
+        "settled on the pulleys"
+    );
+    tracing::info!(
+        integrator = control::name(control.method),
+        step = control.step,
+        newton_tolerance = control.newton_tolerance,
+        "stepping"
+    );
     let mut steps = 0;
     let mut stopped = None;
     let mut motion = assembly.motion.clone();
@@ -284,11 +297,20 @@ fn run<E: Element, L: PulleyLaw<E>>(
     }
     let cpu_seconds = (cpu.elapsed().saturating_sub(recorder.recording)).as_secs_f64();
     let audit = recorder.audit(drive);
+    tracing::info!(
+        steps = statistics.steps,
+        halved = statistics.halved_steps,
+        fallback = statistics.fallback_steps,
+        energy_residual = audit.energy_residual,
+        torque_residual = audit.torque_residual,
+        "done"
+    );
     Ok(Outcome {
         start,
         audit,
         history: recorder.history,
         profile: recorder.profile,
+        frames: recorder.frames,
         statistics,
         cpu_seconds,
         wall_seconds: wall.elapsed().as_secs_f64(),

@@ -12,6 +12,9 @@ use crate::profile::{Profile, Varying};
 /// More rows than this fill a disk before they tell anything.
 const MOST_ROWS: f64 = 1e7;
 
+/// More frames than this fill memory before anybody has looked at them.
+const MOST_FRAMES: f64 = 1e4;
+
 /// Everything that breaks a rule, in the order of the file.
 pub(crate) fn problems(drive: &Drive) -> Vec<Problem> {
     let mut problems = Vec::new();
@@ -469,6 +472,31 @@ fn run(run: &Run, problems: &mut Vec<Problem>) {
                 format!("the step {step} s is longer than the run"),
             )
             .expected(format!("\"auto\", or much less than the end time, {end} s")),
+        );
+    }
+    if run.frame_start > end {
+        problems.push(
+            Problem::new(
+                path.field("frame_start"),
+                format!("the first frame at {} s is after the run", run.frame_start),
+            )
+            .expected(format!("a time from 0 s to the end time, {end} s")),
+        );
+    }
+    if let Some(interval) = run.frame_interval
+        && interval > 0.0
+        && (end - run.frame_start) / interval > MOST_FRAMES
+    {
+        problems.push(
+            Problem::new(
+                path.field("frame_interval"),
+                format!(
+                    "there would be {:.1e} frames",
+                    (end - run.frame_start) / interval
+                ),
+            )
+            .expected(format!("at most {MOST_FRAMES:e} frames"))
+            .help("make the interval longer, or let the frames start later by `run.frame_start`"),
         );
     }
     for (i, &time) in run.profile_times.iter().enumerate() {

@@ -28,6 +28,7 @@ pub(super) struct Recorder {
     spans: Vec<SpanState>,
     pub history: History,
     pub profile: Vec<ProfileRow>,
+    pub frames: Vec<ProfileRow>,
     /// CPU time that rows and profiles took.
     pub recording: Duration,
     state: Motion,
@@ -35,6 +36,8 @@ pub(super) struct Recorder {
     next_output: usize,
     profile_times: Vec<f64>,
     next_profile: usize,
+    frame_times: Vec<f64>,
+    next_frame: usize,
     initial: Stored,
     /// Powers at the last accepted state and work since the start.
     powers: Powers,
@@ -80,11 +83,16 @@ impl Recorder {
             spans: vec![SpanState::default(); names.len()],
             history: History::new(&names, drive.belt.element.is_spatial()),
             profile: Vec::new(),
+            frames: Vec::new(),
             state: assembly.motion.clone(),
-            output_times: output_times(end, drive.run.output_interval),
+            output_times: output_times(0.0, end, drive.run.output_interval),
             next_output: 0,
             profile_times,
             next_profile: 0,
+            frame_times: drive.run.frame_interval.map_or_else(Vec::new, |interval| {
+                output_times(drive.run.frame_start, end, interval)
+            }),
+            next_frame: 0,
             initial: Stored::default(),
             powers: Powers::default(),
             work: Powers::default(),
@@ -179,6 +187,7 @@ impl Recorder {
         let due = |times: &[f64], next: usize| times.get(next).is_some_and(|t| *t <= t1 + slack);
         if !due(&self.output_times, self.next_output)
             && !due(&self.profile_times, self.next_profile)
+            && !due(&self.frame_times, self.next_frame)
         {
             return pace;
         }
@@ -196,6 +205,13 @@ impl Recorder {
             let rows = self.observer.profile(state.time, &self.element_start);
             self.profile.extend(rows);
             self.next_profile += 1;
+        }
+        while due(&self.frame_times, self.next_frame) {
+            window.interpolate(self.frame_times[self.next_frame], &mut state);
+            self.observer.survey(system, &state);
+            let rows = self.observer.profile(state.time, &self.element_start);
+            self.frames.extend(rows);
+            self.next_frame += 1;
         }
         self.state = state;
         self.recording += cpu.elapsed();
@@ -279,16 +295,16 @@ fn kinetic_at_nominal_speed(drive: &Drive, mounting: &Mounting) -> f64 {
     0.5 * mass * nominal_speed(drive).powi(2)
 }
 
-/// Multiples of `interval` from zero, and the end.
-fn output_times(end: f64, interval: f64) -> Vec<f64> {
+/// `start` and multiples of `interval` after it, and the end.
+fn output_times(start: f64, end: f64, interval: f64) -> Vec<f64> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a positive count of rows"
     )]
-    let count = (end / interval * (1.0 + 1.0e-12)).floor() as usize;
+    let count = ((end - start) / interval * (1.0 + 1.0e-12)).floor() as usize;
     let mut times: Vec<f64> = (0..=count)
-        .map(|i| (i as f64 * interval).min(end))
+        .map(|i| (start + i as f64 * interval).min(end))
         .collect();
     if times
         .last()

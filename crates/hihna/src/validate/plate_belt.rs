@@ -205,6 +205,7 @@ pub(super) fn figures_4_12_to_4_18() -> Result<Quantities, CaseError> {
         ]);
     }
     let slack_speed = recommended.mean(0, |row| row.speed);
+    let pressing = recommended.run.rows_on(1).map(|row| row.normal_force);
     quantities.extend([
         (
             "speed loss, 40 less 20 elements".to_owned(),
@@ -221,6 +222,10 @@ pub(super) fn figures_4_12_to_4_18() -> Result<Quantities, CaseError> {
         (
             "slack span over the analytical one, speed".to_owned(),
             slack_speed / string,
+        ),
+        (
+            "least normal force on the driven pulley".to_owned(),
+            pressing.fold(f64::INFINITY, f64::min),
         ),
     ]);
     Ok(quantities)

@@ -262,6 +262,8 @@ fn run() -> impl Strategy<Value = Run> {
                 Vec::new()
             },
             profile_line: part,
+            frame_interval: flag.then_some(end_time * part),
+            frame_start: if flag { end_time * when } else { 0.0 },
         },
     )
 }

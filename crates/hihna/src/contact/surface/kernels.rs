@@ -306,21 +306,24 @@ fn add_products<S: EightLanes>(
     local: &mut [f64],
 ) {
     let dof = 3 * vectors;
+    let count = blocks.len();
+    let mut shapes = [[S::zero(); GROUP]; VECTORS];
+    for (k, table) in tables.iter().flatten().enumerate() {
+        for (shape, values) in shapes.iter_mut().zip(&table.shape) {
+            shape[k] = S::load(values);
+        }
+    }
     for entry in 0..9 {
         let (i, j) = (entry / 3, entry % 3);
         for a in 0..vectors {
             let mut scaled = [S::zero(); GROUP];
-            for (k, table) in tables.iter().enumerate() {
-                if let Some(table) = table {
-                    scaled[k] = S::load(&table.shape[a]) * blocks[k][entry];
-                }
+            for k in 0..count {
+                scaled[k] = shapes[a][k] * blocks[k][entry];
             }
             for b in a..vectors {
                 let mut product = S::zero();
-                for (k, table) in tables.iter().enumerate() {
-                    if let Some(table) = table {
-                        product += scaled[k] * S::load(&table.shape[b]);
-                    }
+                for k in 0..count {
+                    product += scaled[k] * shapes[b][k];
                 }
                 let value = sum(product);
                 local[(3 * a + i) * dof + 3 * b + j] += value;

@@ -1,0 +1,120 @@
+"""Structures from Python: closed forms, and the errors of wrong ones."""
+
+import math
+
+import numpy
+import pytest
+from hihna import StructureError, ancf
+
+STEEL = ancf.Material(youngs_modulus=2.07e11, poisson_ratio=0.3, density=7850.0)
+SQUARE = ancf.Section.rectangle(0.1, 0.1)
+
+
+def cantilever(elements=16, element="linear-beam", section=SQUARE, material=STEEL, **more):
+    return ancf.Beam(2.0, elements, section, material, element=element, **more).clamp(0)
+
+
+@pytest.mark.parametrize("element", ["linear-beam", "belt-beam"])
+def test_a_cantilever_bends_as_timoshenko_says(element):
+    """Tip deflection P L³ / 3 E I + P L / k G A of small loads; second order in the element's length."""
+    stiffness = STEEL.youngs_modulus * SQUARE.second_moment
+    shear = 5 / 6 * STEEL.youngs_modulus / 2.6 * SQUARE.area
+    exact = 1000 * (2.0**3 / (3 * stiffness) + 2.0 / shear)
+    errors = []
+    for elements in (4, 8, 16):
+        beam = cantilever(elements, element)
+        bent = beam.force(beam.last, (0.0, -1000.0)).equilibrium()
+        errors.append(abs(-bent.positions[-1, 1] / exact - 1))
+        numpy.testing.assert_allclose(bent.reactions.sum(axis=0), [0.0, 1000.0], atol=1e-6)
+    # Large rotations and the section's curvature take parts of the order of the deflection squared, 1e-6.
+    assert errors[-1] < max(errors[0] / 12, 2e-3)
+    assert errors[-1] < 2e-3
+
+
+def test_supports_chain_and_forces_balance():
+    beam = ancf.Beam(2.0, 8, SQUARE, STEEL)
+    bent = beam.pin(0).roller(beam.last, (0.0, 1.0)).line_load((0.0, -500.0)).equilibrium()
+    numpy.testing.assert_allclose(bent.reactions[[0, -1], 1], [500.0, 500.0], rtol=1e-5)
+    assert bent.positions.shape == (9, 2) and bent.iterations >= 1
+
+
+def test_frequencies_of_a_slender_cantilever():
+    """(1.8751 / L)² sqrt(E I / rho A), Euler and Bernoulli's; 100 times longer than thick, shear takes 1e-4 of it."""
+    thin = ancf.Section.rectangle(0.02, 0.02)
+    modes = cantilever(32, section=thin).modes()
+    exact = (1.8751041 / 2.0) ** 2 * math.sqrt(STEEL.youngs_modulus * thin.second_moment / (STEEL.density * thin.area))
+    assert modes.frequencies[0] == pytest.approx(exact, rel=2e-3)
+    assert numpy.all(numpy.diff(modes.frequencies) >= 0)
+    # The tip moves most, across the beam.
+    assert abs(modes.shapes[0, :, 1]).argmax() == 32
+    assert numpy.abs(modes.growths).max() < 1e-6 * modes.frequencies.max()
+
+
+def test_a_falling_pendulum_keeps_its_energy():
+    rubber = ancf.Material(youngs_modulus=2.07e7, poisson_ratio=0.0, density=7850.0)
+    beam = ancf.Beam(2.0, 4, SQUARE, rubber).pin(0).gravity((0.0, -9.81))
+    film = beam.integrate(0.5, 2e-4, method="runge-kutta", interval=0.05)
+    assert film.time == pytest.approx(numpy.linspace(0, 0.5, 11))
+    assert film.positions.shape == film.velocities.shape == (11, 5, 2)
+    # Against what fell: m g L / 2 = 1540 J.
+    assert numpy.abs(film.energy - film.energy[0]).max() < 1e-5 * 1540
+    numpy.testing.assert_allclose(film.positions[:, 0], 0.0, atol=1e-12)
+
+
+def test_a_motion_by_a_python_function():
+    """A user's spin-up and the built-in one give the same motion."""
+    aluminium = ancf.Material(6.895e10, 0.0, 2766.67)
+    section = ancf.Section.rectangle(1.986e-3, 3.675e-2)
+    speed, rise = 4.0, 15.0
+
+    def angle(t):
+        rate = 2 * math.pi / rise
+        return (
+            speed / rise * (t * t / 2 + (math.cos(rate * t) - 1) / rate**2),
+            speed / rise * (t - math.sin(rate * t) / rate),
+            speed / rise * (1 - math.cos(rate * t)),
+        )
+
+    films = []
+    for drive in (lambda b: b.turn(0, angle), lambda b: b.spin_up(0, speed, rise)):
+        beam = drive(ancf.Beam(8.0, 3, section, aluminium))
+        films.append(beam.integrate(0.5, 5e-3, interval=0.1))
+    numpy.testing.assert_allclose(films[0].positions, films[1].positions, atol=1e-9)
+
+
+def test_an_error_in_a_function_is_told():
+    def angle(t):
+        raise LookupError("no such angle")
+
+    beam = ancf.Beam(2.0, 2, SQUARE, STEEL).turn(0, angle)
+    with pytest.raises(LookupError, match="no such angle"):
+        beam.integrate(0.1, 1e-3)
+    with pytest.raises(LookupError, match="no such angle"):
+        beam.equilibrium()
+
+
+def test_what_is_wrong_is_told():
+    with pytest.raises(StructureError, match="nothing holds"):
+        ancf.Beam(2.0, 2, SQUARE, STEEL).force(1, (1.0, 0.0)).equilibrium()
+    with pytest.raises(StructureError, match="there is no node 9"):
+        ancf.Beam(2.0, 2, SQUARE, STEEL).clamp(9).equilibrium()
+    with pytest.raises(StructureError, match="at least one"):
+        ancf.Beam(2.0, 0, SQUARE, STEEL)
+    with pytest.raises(ValueError, match="linear-beam"):
+        ancf.Beam(2.0, 2, SQUARE, STEEL, element="beam")
+    with pytest.raises(ValueError, match="belt-beam"):
+        ancf.Beam(2.0, 2, SQUARE, STEEL, bending_factor=0.01)
+    with pytest.raises(OverflowError):
+        ancf.Beam(2.0, 2, SQUARE, STEEL).pin(-1)
+
+
+def test_a_rigid_body_at_the_tip():
+    """A mass fastened to a massless-like cantilever: omega² = 3 E I / (m L³), Rayleigh's 33/140 of the beam added."""
+    thin = ancf.Section.rectangle(0.02, 0.02)
+    beam = cantilever(16, section=thin)
+    mass = 1000.0
+    body = beam.body("weight", mass, 1e-3, (2.0, 0.0))
+    found = beam.fasten(beam.last, body).modes().frequencies[0]
+    own = STEEL.density * thin.area * 2.0
+    exact = math.sqrt(3 * STEEL.youngs_modulus * thin.second_moment / ((mass + 33 / 140 * own) * 2.0**3))
+    assert found == pytest.approx(exact, rel=3e-3)

@@ -1,0 +1,141 @@
+//! What the animation of the moving belt needs, as small as eyes allow.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use hihna::drive::Drive;
+use hihna::history::History;
+use hihna::layout::Layout;
+use hihna::observe::ProfileRow;
+use serde::Serialize;
+
+use crate::path::feet;
+use crate::series::short;
+
+/// Points of the belt drawn at most: one for every pixel or two.
+const MOST_POINTS: usize = 600;
+/// Points of all frames together kept at most; each takes 20 bytes, a third more as text.
+const MOST_NUMBERS: usize = 250_000;
+
+/// The moving belt. Lists of numbers are 32-bit floats, little-endian, as base64.
+#[derive(Serialize)]
+pub struct Animation {
+    /// Time of each frame [s].
+    times: Vec<f64>,
+    /// Points of the belt in a frame.
+    points: usize,
+    /// For each frame and point `x, y` of the nearest place on the rigid path [m].
+    path: String,
+    /// For each frame and point the way from there to the belt `x, y` [m].
+    offset: String,
+    /// For each frame and point the mean true axial force of the element [N].
+    tension: String,
+    /// Least and greatest tension of all.
+    range: [f64; 2],
+    pulleys: Vec<Disc>,
+    /// The rigid path, to show what the belt's shape is magnified from.
+    outline: Vec<[f32; 2]>,
+}
+
+#[derive(Serialize)]
+struct Disc {
+    name: String,
+    center: [f64; 2],
+    radius: f64,
+    /// Angle at each frame [rad].
+    angle: Vec<f32>,
+}
+
+/// The animation of `frames`; `None` if there are fewer than two.
+pub fn animation(
+    drive: &Drive,
+    layout: &Layout,
+    history: &History,
+    frames: &[ProfileRow],
+) -> Option<Animation> {
+    let all: Vec<&[ProfileRow]> = frames
+        .chunk_by(|a, b| a.time.to_bits() == b.time.to_bits())
+        .collect();
+    let count = all.first()?.len();
+    let stride = count.div_ceil(MOST_POINTS).max(1);
+    let points = count.div_ceil(stride);
+    let step = (all.len() * points).div_ceil(MOST_NUMBERS).max(1);
+    let shown: Vec<&[ProfileRow]> = all
+        .into_iter()
+        .step_by(step)
+        .filter(|frame| frame.len() == count)
+        .collect();
+    if shown.len() < 2 {
+        return None;
+    }
+    let (mut path, mut offset, mut tension) = (Vec::new(), Vec::new(), Vec::new());
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for frame in &shown {
+        for (foot, row) in feet(layout, frame).iter().zip(*frame).step_by(stride) {
+            let [x, y] = foot.point;
+            path.extend([short(x), short(y)]);
+            offset.extend([short(row.x - x), short(row.y - y)]);
+            tension.push(short(row.element_tension));
+            if row.element_tension.is_finite() {
+                range = [
+                    range[0].min(row.element_tension),
+                    range[1].max(row.element_tension),
+                ];
+            }
+        }
+    }
+    if range[0] > range[1] {
+        // No tension is a number.
+        range = [0.0; 2];
+    }
+    let times: Vec<f64> = shown.iter().map(|frame| frame[0].time).collect();
+    let pulleys = drive
+        .pulley
+        .iter()
+        .map(|pulley| Disc {
+            name: pulley.name.clone(),
+            center: pulley.center,
+            radius: pulley.radius,
+            angle: angles(history, &pulley.name, &times),
+        })
+        .collect();
+    Some(Animation {
+        times,
+        points,
+        path: text(&path),
+        offset: text(&offset),
+        tension: text(&tension),
+        range,
+        pulleys,
+        outline: outline(layout),
+    })
+}
+
+/// Angles brought below a turn before they lose digits.
+fn angles(history: &History, pulley: &str, times: &[f64]) -> Vec<f32> {
+    let name = format!("{pulley}.angle");
+    times
+        .iter()
+        .map(|time| history.at(&name, *time).unwrap_or(0.0))
+        .map(|angle| short(angle.rem_euclid(std::f64::consts::TAU)))
+        .collect()
+}
+
+fn outline(layout: &Layout) -> Vec<[f32; 2]> {
+    let count = 400;
+    (0..count)
+        .map(|i| {
+            layout
+                .point(layout.length * f64::from(i) / f64::from(count))
+                .position
+        })
+        .map(|[x, y]| [short(x), short(y)])
+        .collect()
+}
+
+fn text(values: &[f32]) -> String {
+    let bytes: Vec<u8> = values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect();
+    STANDARD.encode(bytes)
+}

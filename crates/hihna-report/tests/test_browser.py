@@ -1,0 +1,141 @@
+"""The report in a browser without network: no errors, no requests, the animation plays.
+
+Needs pytest, playwright and a Chromium (`CHROMIUM` names another than /usr/bin/chromium); `HIHNA` is the program and
+`SCREENSHOTS` a folder for pictures. The test command provides all of them.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+from playwright.sync_api import sync_playwright
+
+CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium") or "/usr/bin/chromium"
+HIHNA = os.environ["HIHNA"]
+EXAMPLES = pathlib.Path(__file__).parents[3] / "examples"
+
+# Short runs, one of each kind of drive; names that would break a page that trusts them.
+DRIVES = {
+    "base": ["--set", "run.end_time=1.5"],
+    "idler": [str(EXAMPLES / "back_side_idler.toml"), "--set", "run.end_time=0.2"],
+    "names": ["--set", "run.end_time=0.05", "--set", "title=<script>document.title='taken'</script>"],
+}
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def reports(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("reports")
+    for name, arguments in DRIVES.items():
+        done = subprocess.run([HIHNA, "run", *arguments, "--report", "--quiet", "--out", str(folder / name)], check=False)
+        assert done.returncode in (0, 1), name
+    bare = [HIHNA, "run", "--set", "run.end_time=0.02", "--quiet", "--out", str(folder / "bare")]
+    subprocess.run(bare, check=False)
+    subprocess.run([HIHNA, "report", str(folder / "bare")], check=True)
+    return folder
+
+
+@pytest.fixture
+def page(browser):
+    context = browser.new_context(viewport={"width": 1280, "height": 900}, offline=True)
+    page = context.new_page()
+    page.troubles = []
+    page.on("console", lambda message: page.troubles.append(message.text))
+    page.on("pageerror", lambda error: page.troubles.append(str(error)))
+    page.on("request", lambda request: page.troubles.append(request.url) if not request.url.startswith(("file:", "data:", "blob:")) else None)
+    yield page
+    context.close()
+
+
+def open_report(page, folder):
+    page.goto((folder / "report.html").as_uri())
+    page.wait_for_selector("html[data-ready=true]")
+
+
+def keep(page, name, **options):
+    if folder := os.environ.get("SCREENSHOTS"):
+        page.screenshot(path=pathlib.Path(folder) / f"{name}.png", **options)
+
+
+@pytest.mark.parametrize("name", [*DRIVES, "bare"])
+def test_the_page_is_quiet_and_whole(page, reports, name):
+    open_report(page, reports / name)
+    charts = page.locator(".chart")
+    assert charts.count() >= 15
+    assert page.locator(".chart .main-svg").count() >= charts.count(), "a chart is not drawn"
+    assert page.locator("#animation").count() == (0 if name == "bare" else 1)
+    assert page.locator(".hihna-drive .wrap").count() >= 2
+    assert page.title() != "taken"
+    keep(page, f"{name}-light", full_page=True)
+    assert page.troubles == []
+
+
+def test_every_axis_has_a_title_with_a_unit(page, reports):
+    open_report(page, reports / "base")
+    titles = page.eval_on_selector_all(".chart", "all => all.flatMap(c => [c.layout.xaxis.title.text, c.layout.yaxis.title.text])")
+    assert len(titles) >= 30
+    assert all("[" in title for title in titles)
+
+
+def test_the_animation_plays_pauses_and_steps(page, reports):
+    open_report(page, reports / "base")
+    frame = lambda: int(page.input_value("#frame"))
+    picture = lambda: page.evaluate("document.getElementById('stage').toDataURL()")
+    last = frame()
+    assert last >= 100
+    page.select_option("#pace", "1")
+    page.click("#play")
+    page.wait_for_function(f"Number(document.getElementById('frame').value) < {last // 2}")
+    page.wait_for_timeout(400)
+    assert page.inner_text("#play") == "Pause"
+    page.click("#play")
+    stopped = frame()
+    assert 0 < stopped < last
+    page.wait_for_timeout(200)
+    assert frame() == stopped
+    before = picture()
+    page.focus("#stage")
+    page.keyboard.press("ArrowRight")
+    assert frame() == stopped + 1
+    assert picture() != before, "the belt or the pulleys move from frame to frame"
+    page.keyboard.press("End")
+    assert frame() == last
+    plain = picture()
+    page.select_option("#magnify", "50")
+    assert picture() != plain, "the shape is magnified"
+    page.locator("#animation").scroll_into_view_if_needed()
+    keep(page, "magnified")
+    page.keyboard.press("Home")
+    assert page.troubles == []
+
+
+def test_dark_and_print(page, reports):
+    open_report(page, reports / "base")
+    page.click("#theme")
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+    dark = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    keep(page, "base-dark", full_page=True)
+    paper = page.pdf(format="A4", print_background=True)
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark", "the screen is as before"
+    if folder := os.environ.get("SCREENSHOTS"):
+        (pathlib.Path(folder) / "base.pdf").write_bytes(paper)
+    assert paper.startswith(b"%PDF")
+    assert dark != "rgb(255, 255, 255)"
+    assert page.troubles == []
+
+
+def test_the_systems_dark_is_followed(browser, reports):
+    context = browser.new_context(color_scheme="dark", offline=True)
+    page = context.new_page()
+    open_report(page, reports / "bare")
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+    context.close()

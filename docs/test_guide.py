@@ -1,0 +1,119 @@
+"""Every block of shell, TOML and Python in the documents runs.
+
+Commands of a block run in a fresh folder with the `examples` and the drive files of the page: a block that begins with
+`# name.toml` is saved under that name. Fragments of drive files are put into the built-in drive. `HIHNA` is the program.
+"""
+
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+
+import hihna
+import pytest
+
+ROOT = pathlib.Path(__file__).parents[1]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs" / "src").rglob("*.md"))]
+BLOCK = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+# What the page shows but the test of it does not do: building, installing, plotting, and what other tests run.
+ELSEWHERE = ("cargo ", "./check", "pip ", "maturin ", "mdbook ", "python3 docs/", "hihna validate", "git ", "rustup ", "cd ")
+
+
+def blocks(page):
+    return BLOCK.findall(page.read_text(encoding="utf-8"))
+
+
+def shell(text, page_folder, number):
+    folder = page_folder / f"block_{number}"
+    folder.mkdir()
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    for file in page_folder.glob("*.toml"):
+        shutil.copy(file, folder)
+    for line in text.splitlines():
+        command = line.split(" #")[0].strip()
+        if command.startswith("cargo run --release -- "):
+            command = command.replace("cargo run --release --", "hihna")
+        if not command or command.startswith("#") or command.startswith(ELSEWHERE):
+            continue
+        words = shlex.split(command)
+        assert words[0] == "hihna", f"`{command}` is neither run nor known to run elsewhere"
+        done = subprocess.run([os.environ["HIHNA"], *words[1:]], cwd=folder, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, f"`{command}`: {done.stderr}"
+
+
+def drive(text, folder):
+    name = re.match(r"# (\w+\.toml)\n", text)
+    if name:
+        (folder / name[1]).write_text(text, encoding="utf-8")
+    fields = toml(text)
+    base = hihna.Drive.built_in().to_dict()
+    if "belt" in fields and "pulley" in fields:
+        hihna.Drive.from_toml(text)
+        return
+    for name, value in fields.items():
+        if name in ("friction", "back_friction", "surface"):
+            base["contact"][name] = value
+        elif name in ("speed", "irregularity"):
+            base["pulley"][0][name] = value
+        elif name in ("load", "torque"):
+            base["pulley"][1][name] = value
+        elif name == "pulley":
+            base = in_an_example(value)
+        else:
+            base[name] = {**base.get(name, {}), **value}
+    hihna.Drive.from_dict(base)
+
+
+def in_an_example(pulleys):
+    """The example that has pulleys of these names, with these in their place."""
+    names = {pulley["name"] for pulley in pulleys}
+    for file in sorted((ROOT / "examples").glob("*.toml")):
+        base = hihna.Drive.load(file).to_dict()
+        if names <= {pulley["name"] for pulley in base["pulley"]}:
+            stated = {pulley["name"]: pulley for pulley in pulleys}
+            base["pulley"] = [stated.get(pulley["name"], pulley) for pulley in base["pulley"]]
+            return base
+    raise AssertionError(f"no example has pulleys {names}")
+
+
+def toml(text):
+    try:
+        import tomllib
+    except ModuleNotFoundError:  # Python 3.10
+        tomllib = pytest.importorskip("tomli")
+    return tomllib.loads(text)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_blocks_run(page, tmp_path, monkeypatch):
+    shutil.copy(ROOT / "examples" / "two_pulley.toml", tmp_path / "my_drive.toml")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    names = {}
+    for number, (language, text) in enumerate(blocks(page)):
+        if language == "sh":
+            shell(text, tmp_path, number)
+        elif language == "toml":
+            drive(text, tmp_path)
+        elif language == "python":
+            exec(compile(text, str(page), "exec"), names)
+        else:
+            assert language in ("text", "rust"), f"nothing runs blocks of {language}"
+
+
+def test_every_page_is_in_the_summary():
+    source = ROOT / "docs" / "src"
+    summary = (source / "SUMMARY.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"\]\(([^)]+\.md)\)", summary))
+    there = {str(page.relative_to(source)) for page in source.rglob("*.md")} - {"SUMMARY.md"}
+    assert listed == there
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+        if "://" not in target:
+            assert (page.parent / target).exists(), target
