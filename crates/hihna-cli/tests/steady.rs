@@ -542,3 +542,70 @@ fn finite_elements() {
     );
     assert!(message.contains("needs one that turns"), "{message}");
 }
+
+/// A map: rows in the order of the axes, the same numbers in CSV and JSON, a Parquet file beside them; elasticities and modes of a
+/// running drive.
+#[test]
+fn maps_sensitivities_and_modes_of_finite_elements() {
+    let folder = TempDir::new().unwrap();
+    let fe = [
+        "--model",
+        "fe",
+        "--set",
+        "belt.elements=30",
+        "--set",
+        "contact.friction.coefficient=0.3",
+    ];
+    let map = [
+        "--map",
+        "pulley.driven.torque=-0.5:-3:3",
+        "--map",
+        "pulley.driver.speed=6:12:2",
+    ];
+    let found = object(folder.path(), &[&fe[..], &map, &["--out", "map"]].concat());
+    let answers: Vec<_> = (found["rows"].as_array().unwrap().iter())
+        .map(|row| row["answer"].as_str().unwrap())
+        .collect();
+    assert_eq!(answers[..4], ["running"; 4]);
+    assert_eq!(answers[4..], ["gross-slip"; 2]);
+    assert_eq!(
+        names(&folder.path().join("map")),
+        ["drive.toml", "map.csv", "map.parquet"]
+    );
+    let csv = fs::read_to_string(folder.path().join("map/map.csv")).unwrap();
+    let mut lines = csv.lines();
+    let header: Vec<_> = lines.next().unwrap().split(',').collect();
+    assert_eq!(
+        header[..3],
+        ["answer", "pulley.driven.torque", "pulley.driver.speed"]
+    );
+    let second: Vec<_> = lines.nth(1).unwrap().split(',').collect();
+    assert_eq!(second[..3], ["running", "-0.5", "12"]);
+    let parquet = fs::read(folder.path().join("map/map.parquet")).unwrap();
+    assert!(parquet.starts_with(b"PAR1") && parquet.ends_with(b"PAR1"));
+
+    let load = ["--set", "pulley.driven.torque=-1"];
+    let asked = ["--sensitivity", "belt.youngs_modulus", "--modes", "3"];
+    let found = object(folder.path(), &[&fe[..], &load, &asked].concat());
+    let results = &found["sensitivity"]["belt.youngs_modulus"]["results"];
+    let elasticity = number(&results["span.driver-driven.tension"]["elasticity"]);
+    assert!(elasticity > 0.5 && elasticity < 1.5, "{elasticity}");
+    let modes = found["modes"].as_array().unwrap();
+    let frequencies: Vec<_> = modes
+        .iter()
+        .map(|mode| number(&mode["frequency"]))
+        .collect();
+    assert_eq!(frequencies.len(), 3);
+    assert!(frequencies.is_sorted(), "{frequencies:?}");
+
+    for wrong in [
+        &["--map", "pulley.driven.torque=0:1"][..],
+        &["--map", "pulley.driven.torqe=0:1:2"],
+        &["--map", "pulley.driven.torque=0:1:0"],
+        &["--sensitivity", "belt.element"],
+    ] {
+        let (_, message) = told(folder.path(), &[&fe[..], wrong].concat(), 2);
+        assert!(message.contains("help"), "{wrong:?}: {message}");
+    }
+    told(folder.path(), &["--modes", "3"], 2);
+}
