@@ -428,3 +428,16 @@ fn a_pulley_dragged_backwards_is_told() {
     assert!(warnings.contains("slips on pulley `driven`"), "{warnings}");
     assert_audit(&outcome);
 }
+
+/// Rows lie within steps, and the ramp's acceleration jumps at the ends of some: the driver's speed is prescribed
+/// in every row all the same.
+#[test]
+fn the_driver_turns_as_prescribed_in_every_row() {
+    let outcome = run(&[DRIVER, DRIVEN], LENGTH, &["run.output_interval=0.0007"]);
+    let speeds = column(&outcome, "driver.speed");
+    let times = column(&outcome, "time");
+    for (time, speed) in times.iter().zip(speeds) {
+        let ramp = ((time - 0.01) / 0.39).clamp(0.0, 1.0) * 12.0;
+        assert!((speed - ramp).abs() < 1e-12, "{speed} rad/s at {time} s");
+    }
+}

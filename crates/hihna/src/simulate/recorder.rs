@@ -195,19 +195,29 @@ impl Recorder {
         let mut state = std::mem::replace(&mut self.state, Motion::zero(0));
         while due(&self.output_times, self.next_output) {
             let time = self.output_times[self.next_output];
-            window.interpolate(time, &mut state);
+            within(system, window, time, &mut state);
             self.row(system, &state, &work_until((time - t0) / step));
             self.next_output += 1;
         }
         while due(&self.profile_times, self.next_profile) {
-            window.interpolate(self.profile_times[self.next_profile], &mut state);
+            within(
+                system,
+                window,
+                self.profile_times[self.next_profile],
+                &mut state,
+            );
             self.observer.survey(system, &state);
             let rows = self.observer.profile(state.time, &self.element_start);
             self.profile.extend(rows);
             self.next_profile += 1;
         }
         while due(&self.frame_times, self.next_frame) {
-            window.interpolate(self.frame_times[self.next_frame], &mut state);
+            within(
+                system,
+                window,
+                self.frame_times[self.next_frame],
+                &mut state,
+            );
             self.observer.survey(system, &state);
             let rows = self.observer.profile(state.time, &self.element_start);
             self.frames.extend(rows);
@@ -282,6 +292,18 @@ impl Recorder {
             tolerance: self.tolerance,
         }
     }
+}
+
+/// The state at `time` within a step, with the prescribed coordinates as prescribed: a kink of theirs ends a
+/// step, and interpolation would bend it with the acceleration behind the kink.
+fn within<E: Element, L: PulleyLaw<E>>(
+    system: &System<E, L>,
+    window: Window<'_>,
+    time: f64,
+    state: &mut Motion,
+) {
+    window.interpolate(time, state);
+    system.prescribe(time, &mut state.q, &mut state.v, &mut state.a);
 }
 
 /// Kinetic energy [J] of belt and pulleys without slip at the speed of the fastest driver.
