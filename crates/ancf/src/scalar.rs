@@ -34,6 +34,13 @@ pub trait Scalar:
     fn recip(self) -> Self;
     /// Lane by lane: `yes` where `self > 0`, else `no`.
     fn select_positive(self, yes: Self, no: Self) -> Self;
+    /// A function of plain numbers, lane by lane: its value and its derivatives by the arguments. Numbers that
+    /// carry derivatives get those of the value by the chain rule, to first order; the derivatives returned are
+    /// constants to them.
+    fn apply<const N: usize>(
+        arguments: [Self; N],
+        function: &mut dyn FnMut([f64; N]) -> (f64, [f64; N]),
+    ) -> (Self, [Self; N]);
 
     /// The constant zero.
     #[inline(always)]
@@ -64,6 +71,12 @@ impl Scalar for f64 {
     #[inline(always)]
     fn select_positive(self, yes: Self, no: Self) -> Self {
         if self > 0.0 { yes } else { no }
+    }
+    fn apply<const N: usize>(
+        arguments: [Self; N],
+        function: &mut dyn FnMut([f64; N]) -> (f64, [f64; N]),
+    ) -> (Self, [Self; N]) {
+        function(arguments)
     }
 }
 
@@ -135,6 +148,20 @@ impl<const L: usize> Scalar for Lanes<L> {
             if self.0[i] > 0.0 { yes.0[i] } else { no.0[i] }
         }))
     }
+    fn apply<const N: usize>(
+        arguments: [Self; N],
+        function: &mut dyn FnMut([f64; N]) -> (f64, [f64; N]),
+    ) -> (Self, [Self; N]) {
+        let (mut value, mut derivatives) = (Self::zero(), [Self::zero(); N]);
+        for lane in 0..L {
+            let by_argument;
+            (value.0[lane], by_argument) = function(arguments.map(|x| x.0[lane]));
+            for (derivative, one) in derivatives.iter_mut().zip(by_argument) {
+                derivative.0[lane] = one;
+            }
+        }
+        (value, derivatives)
+    }
 }
 
 /// Writes a short loop out, `unroll!(for i in 0..3 { ... })`.
@@ -178,6 +205,17 @@ macro_rules! dual_scalar {
             }
             fn select_positive(self, yes: Self, no: Self) -> Self {
                 if self.re > 0.0 { yes } else { no }
+            }
+            fn apply<const N: usize>(
+                arguments: [Self; N],
+                function: &mut dyn FnMut([f64; N]) -> (f64, [f64; N]),
+            ) -> (Self, [Self; N]) {
+                let (value, derivatives) = function(arguments.map(|x| x.re));
+                let mut sum = Self::from_re(value);
+                for (x, derivative) in arguments.iter().zip(derivatives) {
+                    sum += (*x - x.re) * derivative;
+                }
+                (sum, derivatives.map(Self::from_re))
             }
         }
     };

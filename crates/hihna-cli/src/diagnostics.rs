@@ -94,7 +94,7 @@ impl Failure {
             | Self::Argument { .. }
             | Self::Folder(_)
             | Self::UnknownCase(_)
-            | Self::Report(ReportError::Read(_))
+            | Self::Report(ReportError::Read(_) | ReportError::Axes { .. })
             | Self::Running(RunningError::Assembly(_))
             | Self::Run(RunError::Assembly(_)) => ExitCode::from(2),
             _ => ExitCode::from(1),
@@ -151,7 +151,12 @@ impl Failure {
                 ));
             }
             Self::UnknownCase(_) => "`hihna validate --list` prints the cases",
-            Self::Report(ReportError::Read(_)) => "name a folder that `hihna run` has written",
+            Self::Report(ReportError::Read(_)) => {
+                "name a folder that `hihna run` or `hihna steady --map` has written"
+            }
+            Self::Report(ReportError::Axes { .. }) => {
+                "ask for a map of one or two fields, and set the others by `--set`"
+            }
             Self::Steady(_) => {
                 "check stiffness, tension and torques of the drive for slips of the decimal point"
             }

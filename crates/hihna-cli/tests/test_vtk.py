@@ -104,3 +104,31 @@ def test_the_pulleys_turn(folder):
             angle = float(row[f"{name}.angle"])
             numpy.testing.assert_allclose(numpy.exp(1j * turned), numpy.exp(1j * angle), atol=1e-9)
             assert fields["speed"][mine][0] == pytest.approx(float(row[f"{name}.speed"]), rel=1e-9)
+
+
+@pytest.mark.parametrize("edge", [0, 1])
+def test_a_belt_of_plates_has_its_edges(tmp_path, edge):
+    """The line that the profile shows may be an edge: then frames.csv and edges.csv have the same points."""
+    example = pathlib.Path(__file__).parents[3] / "examples" / "crowned_pulleys.toml"
+    sets = ["run.end_time=0.02", "run.frame_interval=0.01", f"run.profile_line={edge}"]
+    arguments = [argument for item in sets for argument in ("--set", item)]
+    folder = tmp_path / "result"
+    command = [os.environ["HIHNA"], "run", str(example), *arguments, "--vtk", "--quiet", "--out", str(folder)]
+    assert subprocess.run(command, check=False).returncode in (0, 1)
+    with open(folder / "frames.csv", newline="") as file:
+        frames = list(csv.DictReader(file))
+    with open(folder / "edges.csv", newline="") as file:
+        edges = list(csv.DictReader(file))
+    assert len(frames) == len(edges) > 0
+    for name in ("time", "material_coordinate"):
+        assert [row[name] for row in frames] == [row[name] for row in edges]
+    line = numpy.array([[float(row[axis]) for axis in "xyz"] for row in frames])
+    both = numpy.array([[[float(row[f"{axis}{side}"]) for axis in "xyz"] for side in (0, 1)] for row in edges])
+    # The same sums of the same shape functions.
+    numpy.testing.assert_allclose(both[:, edge], line, rtol=0, atol=1e-15)
+    # Between free edges a belt keeps sqrt(1 - nu (f^2 - 1)) of its 40 mm. Mounted with f = 1.02 it is taut everywhere and
+    # nowhere twice as tight, so each width lies between those of f = 1 and f = 1.04.
+    width = numpy.linalg.norm(both[:, 1] - both[:, 0], axis=1)
+    assert 0.04 * numpy.sqrt(1 - 0.3 * (1.04**2 - 1)) < width.min() < width.max() < 0.04
+    points, _, _ = read(folder / "belt_00002.vtu")
+    numpy.testing.assert_allclose(points.reshape(-1, 2, 3), both[-len(points) // 2 :], rtol=0, atol=1e-15)

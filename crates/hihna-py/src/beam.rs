@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::StructureError;
-use crate::user_motion::{Raised, UserMotion, take};
+use crate::user_motion::{Raised, UserMotion, has_raised, take};
 
 /// Between looks at signals.
 const INTERVAL: Duration = Duration::from_millis(100);
@@ -375,12 +375,4 @@ fn film<E: LineElement>(
     }
     done.map_err(|error| wrong(&error))?;
     Ok(film)
-}
-
-/// Whether a function of the user's has raised; it stays raised.
-fn has_raised(raised: &Raised) -> bool {
-    raised
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner)
-        .is_some()
 }

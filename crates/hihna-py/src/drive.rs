@@ -6,8 +6,10 @@ use std::time::{Duration, Instant};
 use hihna::drive::Drive;
 use hihna::input::{self, InputErrors, Override};
 use hihna::layout::Layout;
-use hihna::simulate::{Flow, RunError as LibraryRunError, simulate};
+use hihna::simulate::{Flow, RunError as LibraryRunError, simulate_with};
 use hihna::steady::drive_string::{DriveString, SteadyError};
+use hihna::steady::running::summary::RunningSummary;
+use hihna::steady::running::{self, RunningError};
 use hihna::steady::string::{Answer, Closure, Model};
 use hihna::summary::Named;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -16,6 +18,8 @@ use serde_json::{Value, json};
 
 use crate::errors::{InputError, RunError, input_error, problem};
 use crate::results::NativeResults;
+use crate::user_laws::{Functions, user_laws};
+use crate::user_motion::{Raised, has_raised, take};
 
 /// Between looks at signals and calls of the user's progress.
 const INTERVAL: Duration = Duration::from_millis(100);
@@ -92,17 +96,29 @@ impl NativeDrive {
         Ok(hihna_report::drawing(&self.drive, &layout, &[], &[]))
     }
 
-    /// Runs the drive; `progress` is called now and then with the time reached and the end time.
-    #[pyo3(signature = (progress=None))]
+    /// Runs the drive; `progress` is called now and then with the time reached and the end time. `friction` and `load`
+    /// take the place of what the pulleys have.
+    #[pyo3(signature = (progress=None, friction=Vec::new(), load=Vec::new()))]
     #[expect(
         clippy::needless_pass_by_value,
         reason = "Python's arguments are owned"
     )]
-    fn run(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<NativeResults> {
+    fn run(
+        &self,
+        py: Python<'_>,
+        progress: Option<Py<PyAny>>,
+        friction: Functions,
+        load: Functions,
+    ) -> PyResult<NativeResults> {
         let mut looked = Instant::now();
         let mut raised: Option<PyErr> = None;
+        let raised_by_laws = Raised::default();
+        let laws = user_laws(friction, load, &raised_by_laws);
         let outcome = py.detach(|| {
-            simulate(&self.drive, &mut |state| {
+            simulate_with(&self.drive, &laws, &mut |state| {
+                if has_raised(&raised_by_laws) {
+                    return Flow::Stop;
+                }
                 if looked.elapsed() < INTERVAL {
                     return Flow::Continue;
                 }
@@ -123,8 +139,11 @@ impl NativeDrive {
                 }
             })
         });
-        match (outcome, raised) {
+        match (outcome, take(&raised_by_laws).or(raised)) {
             (_, Some(error)) => Err(error),
+            (Err(LibraryRunError::UserLaw(error)), None) => {
+                Err(PyValueError::new_err(error.to_string()))
+            }
             (Ok(outcome), None) => NativeResults::of_run(py, self.drive.clone(), outcome),
             (Err(LibraryRunError::Stopped { .. }), None) => Err(PyKeyboardInterrupt::new_err(())),
             (Err(LibraryRunError::Assembly(error)), None) => {
@@ -134,15 +153,23 @@ impl NativeDrive {
         }
     }
 
-    /// Steady running by the theory of the extensible string, as JSON.
+    /// Steady running by the theory of the extensible string or by finite elements, as JSON.
     fn steady(&self, py: Python<'_>, model: &str, closure: &str) -> PyResult<String> {
+        if model == "fe" {
+            if closure != "length" {
+                return Err(PyValueError::new_err(
+                    "finite elements keep the unstretched length: the closure is `length`",
+                ));
+            }
+            return self.steady_elements(py);
+        }
         let model = match model {
             "full" => Model::Full,
             "centrifugal" => Model::Centrifugal,
             "capstan" => Model::Capstan,
             other => {
                 return Err(PyValueError::new_err(format!(
-                    "there is no model `{other}`: the models are full, centrifugal and capstan"
+                    "there is no model `{other}`: the models are full, centrifugal, capstan and fe"
                 )));
             }
         };
@@ -163,6 +190,19 @@ impl NativeDrive {
 }
 
 impl NativeDrive {
+    /// What `hihna steady --model fe` writes to summary.json.
+    fn steady_elements(&self, py: Python<'_>) -> PyResult<String> {
+        let outcome = py
+            .detach(|| running::solve(&self.drive))
+            .map_err(|error| match error {
+                RunningError::Drive(error) => problem(py, &error.problem(&self.drive)),
+                RunningError::Assembly(error) => InputError::new_err(error.to_string()),
+                error => RunError::new_err(error.to_string()),
+            })?;
+        serde_json::to_string(&RunningSummary::new(&self.drive, &outcome))
+            .map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
     pub(crate) fn new(drive: Drive) -> Self {
         Self { drive }
     }

@@ -4,6 +4,7 @@ mod beam;
 mod drive;
 mod errors;
 mod results;
+mod user_laws;
 mod user_motion;
 
 use pyo3::prelude::*;

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use hihna::drive::Drive;
-use hihna::layout::Layout;
 use hihna::observe::ProfileRow;
 use hihna::record::{self, Options, RecordError, Results};
 use hihna::simulate::Outcome;
@@ -36,6 +35,7 @@ impl NativeResults {
             history: outcome.history.clone(),
             profile: outcome.profile.clone(),
             frames: outcome.frames.clone(),
+            edges: outcome.edges.clone(),
         };
         Ok(Self::new(py, results, Some(outcome)))
     }
@@ -90,19 +90,8 @@ impl NativeResults {
 
     /// The drive to scale, slip at the end marked, as SVG.
     fn svg(&self) -> PyResult<String> {
-        let drive = &self.results.drive;
-        let layout = Layout::of(drive).map_err(|error| InputError::new_err(error.to_string()))?;
-        let speed = |name: &str| self.results.number(&["steady", "pulley", name, "speed"]);
-        let speeds: Vec<f64> = drive.pulley.iter().map(|p| speed(&p.name)).collect();
-        let profile = &self.results.profile;
-        let last = profile.last().map_or(f64::NAN, |row| row.time);
-        let first = profile.partition_point(|row| row.time < last);
-        Ok(hihna_report::drawing(
-            drive,
-            &layout,
-            &profile[first..],
-            &speeds,
-        ))
+        hihna_report::result_drawing(&self.results)
+            .map_err(|error| InputError::new_err(error.to_string()))
     }
 
     /// Tables of the means: caption, heads and rows of text.

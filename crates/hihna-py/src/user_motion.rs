@@ -13,6 +13,18 @@ pub fn take(raised: &Raised) -> Option<PyErr> {
     raised.lock().unwrap_or_else(PoisonError::into_inner).take()
 }
 
+/// Whether a function of the user's has raised; it stays raised.
+pub fn has_raised(raised: &Raised) -> bool {
+    let raised = raised.lock().unwrap_or_else(PoisonError::into_inner);
+    raised.is_some()
+}
+
+/// Keeps the first error.
+pub fn keep(raised: &Raised, error: PyErr) {
+    let mut raised = raised.lock().unwrap_or_else(PoisonError::into_inner);
+    raised.get_or_insert(error);
+}
+
 /// A function of the user's: time [s] -> value and its first and second derivative by time. Every call takes the
 /// interpreter's lock.
 #[derive(Debug)]
@@ -31,8 +43,7 @@ impl Motion for UserMotion {
         match answer {
             Ok((value, velocity, acceleration)) => [value, velocity, acceleration],
             Err(error) => {
-                let mut raised = self.raised.lock().unwrap_or_else(PoisonError::into_inner);
-                raised.get_or_insert(error);
+                keep(&self.raised, error);
                 // The solver stops at what is no number, and the error is told then.
                 [f64::NAN; 3]
             }

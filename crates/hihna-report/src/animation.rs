@@ -5,11 +5,12 @@ use base64::engine::general_purpose::STANDARD;
 use hihna::drive::Drive;
 use hihna::history::History;
 use hihna::layout::Layout;
-use hihna::observe::ProfileRow;
+use hihna::observe::{EdgeRow, ProfileRow};
 use serde::Serialize;
 
 use crate::path::feet;
 use crate::series::short;
+use crate::strip::{Sides, Strip};
 
 /// Points of the belt drawn at most: one for every pixel or two.
 const MOST_POINTS: usize = 600;
@@ -34,6 +35,9 @@ pub struct Animation {
     pulleys: Vec<Disc>,
     /// The rigid path, to show what the belt's shape is magnified from.
     outline: Vec<[f32; 2]>,
+    /// What else a belt with a width needs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    strip: Option<Strip>,
 }
 
 #[derive(Serialize)]
@@ -48,12 +52,20 @@ struct Disc {
     centers: Option<Vec<[f32; 2]>>,
 }
 
+impl Animation {
+    /// Whether the belt has a width.
+    pub fn is_in_space(&self) -> bool {
+        self.strip.is_some()
+    }
+}
+
 /// The animation of `frames`; `None` if there are fewer than two.
 pub fn animation(
     drive: &Drive,
     layout: &Layout,
     history: &History,
     frames: &[ProfileRow],
+    edges: &[EdgeRow],
 ) -> Option<Animation> {
     let all: Vec<&[ProfileRow]> = frames
         .chunk_by(|a, b| a.time.to_bits() == b.time.to_bits())
@@ -62,18 +74,29 @@ pub fn animation(
     let stride = count.div_ceil(MOST_POINTS).max(1);
     let points = count.div_ceil(stride);
     let step = (all.len() * points).div_ceil(MOST_NUMBERS).max(1);
-    let shown: Vec<&[ProfileRow]> = all
+    let mut begin = 0;
+    let (shown, edges): (Vec<&[ProfileRow]>, Vec<&[EdgeRow]>) = all
         .into_iter()
+        .map(|frame| {
+            let edges = edges.get(begin..begin + frame.len()).unwrap_or_default();
+            begin += frame.len();
+            (frame, edges)
+        })
         .step_by(step)
-        .filter(|frame| frame.len() == count)
-        .collect();
+        .filter(|(frame, _)| frame.len() == count)
+        .unzip();
     if shown.len() < 2 {
         return None;
     }
     let (mut path, mut offset, mut tension) = (Vec::new(), Vec::new(), Vec::new());
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-    for frame in &shown {
-        for (foot, row) in feet(layout, frame).iter().zip(*frame).step_by(stride) {
+    let mut sides = Sides::of_width(drive.belt.width);
+    for (frame, edges) in shown.iter().zip(&edges) {
+        let feet = feet(layout, frame);
+        for (foot, edge) in feet.iter().zip(*edges).step_by(stride) {
+            sides.add(foot.point, edge);
+        }
+        for (foot, row) in feet.iter().zip(*frame).step_by(stride) {
             let [x, y] = foot.point;
             path.extend([short(x), short(y)]);
             offset.extend([short(row.x - x), short(row.y - y)]);
@@ -105,9 +128,13 @@ pub fn animation(
             }),
         })
         .collect();
+    // Every frame has its edges, or none is shown with them.
+    let strip =
+        (edges.iter().all(|edges| edges.len() == count)).then(|| Strip::new(drive, sides, &times));
     Some(Animation {
         times,
         points,
+        strip,
         path: text(&path),
         offset: text(&offset),
         tension: text(&tension),
@@ -139,7 +166,8 @@ fn outline(layout: &Layout) -> Vec<[f32; 2]> {
         .collect()
 }
 
-fn text(values: &[f32]) -> String {
+/// Numbers as base64.
+pub fn text(values: &[f32]) -> String {
     let bytes: Vec<u8> = values
         .iter()
         .flat_map(|value| value.to_le_bytes())

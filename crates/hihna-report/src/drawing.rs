@@ -7,6 +7,7 @@ use hihna::drive::{Drive, Pulley};
 use hihna::layout::{Arc, Layout};
 use hihna::observe::ProfileRow;
 use hihna::quantities::with_prefix;
+use hihna::simulate::nominal_speed;
 
 /// Width of the drawing's content in its own units.
 const WIDTH: f64 = 860.0;
@@ -16,6 +17,9 @@ const MARGIN: f64 = 48.0;
 
 /// A curve is exhausted where friction is this part of what the normal force allows; the rest is rounding.
 const EXHAUSTED: f64 = 1.0 - 1.0e-6;
+
+/// A surface that moves slower than this part of the drive's nominal speed stands; the rest is rounding.
+const STANDING: f64 = 1.0e-6;
 
 const STYLE: &str = "\
 .hihna-drive{max-width:100%;height:auto;font:500 14px system-ui,sans-serif}\
@@ -53,6 +57,7 @@ pub fn escaped(text: &str) -> String {
 /// the pulleys [rad/s], zero or missing where they do not turn.
 pub fn drawing(drive: &Drive, layout: &Layout, belt: &[ProfileRow], speeds: &[f64]) -> String {
     let view = View::of(drive, layout);
+    let least_speed = STANDING * nominal_speed(drive);
     let mut svg = String::new();
     // Writing to a string cannot fail.
     let _ = write!(
@@ -70,7 +75,9 @@ pub fn drawing(drive: &Drive, layout: &Layout, belt: &[ProfileRow], speeds: &[f6
             "<circle class=\"pulley\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\"/>",
             pulley.radius * view.scale
         );
-        svg.push_str(&hub(&view, pulley, speeds.get(i).copied().unwrap_or(0.0)));
+        let speed = speeds.get(i).copied().unwrap_or(0.0);
+        let turns = speed.abs() * pulley.radius > least_speed;
+        svg.push_str(&hub(&view, pulley, if turns { speed } else { 0.0 }));
     }
     for span in &layout.spans {
         let ([x1, y1], [x2, y2]) = (view.place(span.start), view.place(span.end));
@@ -297,6 +304,22 @@ mod tests {
             [0, 1, 25, 26, 27, 701, 702].map(letter),
             ["A", "B", "Z", "AA", "AB", "ZZ", "AAA"]
         );
+    }
+
+    /// The arrow's head is the only thing that is rotated.
+    #[test]
+    fn a_standing_pulley_has_no_arrow() {
+        let text = include_str!("../../../examples/two_pulley.toml");
+        let drive = hihna::input::parse("drive", text, &[]).unwrap();
+        let layout = Layout::new(&drive.pulley).unwrap();
+        let arrows = |speeds| {
+            drawing(&drive, &layout, &[], speeds)
+                .matches("rotate(")
+                .count()
+        };
+        assert_eq!(arrows(&[12.0, -0.01]), 2);
+        assert_eq!(arrows(&[12.0, 3.0e-13]), 1);
+        assert_eq!(arrows(&[0.0, f64::NAN]), 0);
     }
 
     #[test]

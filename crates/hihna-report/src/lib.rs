@@ -1,5 +1,5 @@
 //! A folder of results as one self-contained HTML page: drawing, tables, charts and an animation that
-//! open without network. The heavy crates of the project live here, away from its core.
+//! open without network; of a map of steady running its charts. The heavy crates of the project live here, away from its core.
 
 mod animation;
 mod charts;
@@ -7,9 +7,11 @@ mod distribution;
 mod drawing;
 mod headline;
 mod inputs;
+mod map;
 mod page;
 mod path;
 mod series;
+mod strip;
 mod tables;
 
 use std::fs;
@@ -31,6 +33,12 @@ pub enum ReportError {
     /// The drive of the folder has no path for its belt.
     #[error(transparent)]
     Layout(#[from] LayoutError),
+    /// The map has more dimensions than paper.
+    #[error("a map over {count} fields with several values cannot be drawn: one or two can")]
+    Axes {
+        /// How many it has.
+        count: usize,
+    },
     /// The page could not be put together.
     #[error("cannot put the report together: {0}")]
     Template(#[from] askama::Error),
@@ -53,9 +61,21 @@ pub fn html(results: &Results) -> Result<String, ReportError> {
     page::render(results, &layout)
 }
 
-/// Reads the result folder `dir` and writes its `report.html`; returns where that is.
+/// The drive of `results` to scale, slip at the last profile time marked, as SVG.
+pub fn result_drawing(results: &Results) -> Result<String, ReportError> {
+    let layout = Layout::of(&results.drive)?;
+    let speeds = page::speeds(results);
+    let belt = page::last_profile(results);
+    Ok(drawing(&results.drive, &layout, belt, &speeds))
+}
+
+/// Reads the folder `dir` of a run or of a map of steady running and writes its `report.html`; returns where that is.
 pub fn write(dir: &Path) -> Result<PathBuf, ReportError> {
-    let page = html(&Results::read(dir)?)?;
+    let page = if dir.join(map::FILE).exists() {
+        map::render(&map::Map::read(dir)?)?
+    } else {
+        html(&Results::read(dir)?)?
+    };
     let path = dir.join("report.html");
     // Whole or not at all: written beside its place, then renamed.
     let draft = dir.join(".report.html");

@@ -1,12 +1,14 @@
 //! The page: chapters put into the template.
 
 use askama::Template;
+use hihna::drive::Drive;
 use hihna::layout::Layout;
+use hihna::observe::ProfileRow;
 use hihna::record::Results;
 use plotly::Plot;
 
 use crate::ReportError;
-use crate::animation::animation;
+use crate::animation::{Animation, animation};
 use crate::charts::{Chart, OverTime};
 use crate::distribution::along_the_belt;
 use crate::drawing::drawing;
@@ -22,6 +24,8 @@ struct Page<'a> {
     drawing: String,
     chapters: Vec<Chapter>,
     has_frames: bool,
+    /// Whether the animation can be turned.
+    in_space: bool,
     frames_note: String,
     inputs: Vec<Table>,
     computation: Table,
@@ -30,6 +34,12 @@ struct Page<'a> {
     plotly: &'static str,
     data: String,
 }
+
+/// The page's own script.
+pub const SCRIPT: &str = concat!(
+    include_str!("../templates/space.js"),
+    include_str!("../templates/report.js")
+);
 
 /// A part of the page with tables and charts.
 struct Chapter {
@@ -49,20 +59,21 @@ struct Figure {
 /// The page of `results` on the path `layout`.
 pub fn render(results: &Results, layout: &Layout) -> Result<String, ReportError> {
     let drive = &results.drive;
-    let animation = animation(drive, layout, &results.history, &results.frames);
+    let animation = animation(
+        drive,
+        layout,
+        &results.history,
+        &results.frames,
+        &results.edges,
+    );
     let frames_note = match &animation {
         Some(_) => String::new(),
         None => "The folder holds no frames of the moving belt. `hihna run --report` keeps them, and so does `--set run.frame_interval=0.005`.".to_owned(),
     };
     let mut plots = Vec::new();
     let chapters = chapters(results, layout, &mut plots);
-    let title = if drive.title.is_empty() {
-        "Belt drive"
-    } else {
-        &drive.title
-    };
     let page = Page {
-        title,
+        title: titled(drive),
         headline: Headline::new(results),
         drawing: drawing(drive, layout, last_profile(results), &speeds(results)),
         chapters,
@@ -71,7 +82,8 @@ pub fn render(results: &Results, layout: &Layout) -> Result<String, ReportError>
         inputs: inputs(results),
         computation: computation(results),
         style: include_str!("../templates/report.css"),
-        script: include_str!("../templates/report.js"),
+        in_space: animation.as_ref().is_some_and(Animation::is_in_space),
+        script: SCRIPT,
         plotly: plotly_script(),
         // A closing tag within the data would end it.
         data: serde_json::to_string(
@@ -82,8 +94,20 @@ pub fn render(results: &Results, layout: &Layout) -> Result<String, ReportError>
     Ok(page.render()?)
 }
 
-/// The belt at the last profile time.
-fn last_profile(results: &Results) -> &[hihna::observe::ProfileRow] {
+/// The drive's title, or what it is.
+pub fn titled(drive: &Drive) -> &str {
+    if drive.title.is_empty() {
+        "Belt drive"
+    } else {
+        &drive.title
+    }
+}
+
+/// The belt at the last profile time, for its slip; nothing where the drive does not know its friction.
+pub fn last_profile(results: &Results) -> &[ProfileRow] {
+    if results.summary.get("stated_friction").is_some() {
+        return &[];
+    }
     results
         .profile
         .chunk_by(|a, b| a.time.to_bits() == b.time.to_bits())
@@ -91,7 +115,8 @@ fn last_profile(results: &Results) -> &[hihna::observe::ProfileRow] {
         .unwrap_or_default()
 }
 
-fn speeds(results: &Results) -> Vec<f64> {
+/// Mean speed of every pulley [rad/s].
+pub fn speeds(results: &Results) -> Vec<f64> {
     let speed = |name: &str| results.number(&["steady", "pulley", name, "speed"]);
     let pulleys = results.drive.pulley.iter();
     pulleys.map(|pulley| speed(&pulley.name)).collect()
@@ -166,7 +191,7 @@ fn chapters(results: &Results, layout: &Layout, plots: &mut Vec<Plot>) -> Vec<Ch
 }
 
 /// plotly.js alone: the crate's sources hold MathJax behind it, of which no chart makes use.
-fn plotly_script() -> &'static str {
+pub fn plotly_script() -> &'static str {
     static SOURCES: std::sync::LazyLock<String> =
         std::sync::LazyLock::new(Plot::offline_js_sources);
     const END: &str = "</script>";

@@ -125,6 +125,7 @@
       high[k] = Math.max(high[k], p.center[k] + p.radius);
     }
 
+    const inSpace = film.strip && spacePainter(film, { stage, path, tension, floats, shade, colour });
     const paint = () => {
       const ratio = devicePixelRatio || 1;
       const { clientWidth: width, clientHeight: height } = stage;
@@ -132,6 +133,10 @@
       stage.height = Math.round(height * ratio);
       const pen = stage.getContext("2d");
       pen.scale(ratio, ratio);
+      if (inSpace) {
+        inSpace.paint(pen, width, height, frame, Number(magnify.value));
+        return;
+      }
       const scale = 0.84 * Math.min(width / (high[0] - low[0]), height / (high[1] - low[1]));
       const X = (x) => width / 2 + (x - (low[0] + high[0]) / 2) * scale;
       const Y = (y) => height / 2 - (y - (low[1] + high[1]) / 2) * scale;
@@ -260,7 +265,9 @@
     slider.addEventListener("input", () => go(Number(slider.value)));
     magnify.addEventListener("change", paint);
     addEventListener("resize", paint);
+    if (inSpace) inSpace.turnBy(paint);
     stage.addEventListener("keydown", (event) => {
+      if (event.shiftKey && inSpace) return;
       const moves = { " ": toggle, ArrowLeft: () => go(frame - 1), ArrowRight: () => go(frame + 1), Home: () => go(0), End: () => go(last) };
       const move = moves[event.key];
       if (!move) return;

@@ -20,6 +20,7 @@ EXAMPLES = pathlib.Path(__file__).parents[3] / "examples"
 DRIVES = {
     "base": ["--set", "run.end_time=1.5"],
     "idler": [str(EXAMPLES / "back_side_idler.toml"), "--set", "run.end_time=0.2"],
+    "plates": [str(EXAMPLES / "crowned_pulleys.toml"), "--set", "run.end_time=0.08", "--set", "run.frame_interval=0.002"],
     "names": ["--set", "run.end_time=0.05", "--set", "title=<script>document.title='taken'</script>"],
 }
 
@@ -118,6 +119,40 @@ def test_the_animation_plays_pauses_and_steps(page, reports):
     assert page.troubles == []
 
 
+def test_a_belt_of_plates_is_drawn_in_space(page, reports):
+    open_report(page, reports / "plates")
+    picture = lambda: page.evaluate("document.getElementById('stage').toDataURL()")
+    page.locator("#animation").scroll_into_view_if_needed()
+    keep(page, "plates")
+    pictures = [picture()]
+    # Colours of the tension are there: points that are neither grey nor blue-grey.
+    coloured = page.evaluate(
+        "(() => { const s = document.getElementById('stage'); const d = s.getContext('2d').getImageData(0, 0, s.width, s.height).data;"
+        " let n = 0; for (let i = 0; i < d.length; i += 4) if (d[i + 3] && Math.max(d[i], d[i + 1], d[i + 2]) - Math.min(d[i], d[i + 1], d[i + 2]) > 60) n += 1;"
+        " return n / (d.length / 4); })()"
+    )
+    assert 0.01 < coloured < 0.5
+    page.focus("#stage")
+    page.keyboard.press("Home")
+    pictures.append(picture())
+    page.keyboard.press("Shift+ArrowRight")
+    pictures.append(picture())
+    box = page.locator("#stage").bounding_box()
+    page.mouse.move(box["x"] + 300, box["y"] + 200)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 380, box["y"] + 240, steps=4)
+    page.mouse.up()
+    pictures.append(picture())
+    keep(page, "plates-turned")
+    page.select_option("#magnify", "10")
+    pictures.append(picture())
+    assert len(set(pictures)) == len(pictures), "frames, turns and magnification each change the picture"
+    page.select_option("#magnify", "1")
+    page.dblclick("#stage")
+    assert picture() == pictures[1], "a double click turns it back"
+    assert page.troubles == []
+
+
 def test_dark_and_print(page, reports):
     open_report(page, reports / "base")
     page.click("#theme")
@@ -139,3 +174,53 @@ def test_the_systems_dark_is_followed(browser, reports):
     open_report(page, reports / "bare")
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"
     context.close()
+
+
+# Two fields: contours, with points that slip as a whole. One: lines.
+MAPS = {
+    "plane": ["--map", "pulley.driven.torque=-0.5:-12:5", "--map", "belt.length=1.26:1.272:4"],
+    "line": ["--map", "pulley.driven.torque=-0.5:-12:8", "--map", "belt.width=0.01:0.01:1"],
+}
+
+
+@pytest.fixture(scope="module")
+def maps(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("maps")
+    for name, arguments in MAPS.items():
+        place = str(folder / name)
+        subprocess.run([HIHNA, "steady", "--model", "fe", *arguments, "--out", place], check=True, capture_output=True)
+        subprocess.run([HIHNA, "report", place], check=True, capture_output=True)
+    return folder
+
+
+@pytest.mark.parametrize(("name", "kind", "axes"), [("plane", "contour", 2), ("line", "scatter", 1)])
+def test_a_map_is_drawn(page, maps, name, kind, axes):
+    open_report(page, maps / name)
+    charts = page.eval_on_selector_all(
+        ".chart",
+        "all => all.map(c => ({kinds: c.data.map(d => d.type), names: c.data.map(d => d.name),"
+        " texts: c.data.flatMap(d => d.hovertext ?? []), titles: [c.layout.xaxis.title.text, c.layout.yaxis.title.text]}))",
+    )
+    assert len(charts) >= 10
+    assert all(chart["kinds"][0] == kind for chart in charts)
+    assert all("[" in title for chart in charts for title in chart["titles"])
+    assert charts[0]["titles"][0] == "pulley.driven.torque [N m]"
+    slipping = [chart for chart in charts if "gross slip" in chart["names"]]
+    assert slipping and "times what friction carries" in slipping[0]["texts"][0]
+    captions = page.locator(".charts figcaption").all_inner_texts()
+    assert captions[0].startswith("Load over the most that friction carries") and all("[" in caption for caption in captions)
+    assert page.locator("#inputs tbody tr").count() >= axes + 2
+    keep(page, f"map-{name}", full_page=True)
+    page.click("#theme")
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+    keep(page, f"map-{name}-dark", full_page=True)
+    assert page.troubles == []
+
+
+def test_a_map_of_three_fields_is_refused(tmp_path):
+    fields = ["pulley.driven.torque=-0.5:-1:2", "belt.length=1.26:1.27:2", "belt.width=0.01:0.02:2"]
+    arguments = [word for field in fields for word in ("--map", field)]
+    place = str(tmp_path / "space")
+    subprocess.run([HIHNA, "steady", "--model", "fe", *arguments, "--out", place], check=True, capture_output=True)
+    done = subprocess.run([HIHNA, "report", place], check=False, capture_output=True, text=True)
+    assert done.returncode == 2 and "3 fields" in done.stderr

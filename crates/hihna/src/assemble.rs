@@ -109,6 +109,16 @@ pub enum Warning {
         /// Number of elements that would do.
         elements: usize,
     },
+    /// The program that ran the drive stated a law itself.
+    #[error(
+        "the {law} on pulley `{pulley}` was a function of the program that ran the drive: the drive file does not hold it"
+    )]
+    StatedLaw {
+        /// What the law is of.
+        law: &'static str,
+        /// The pulley.
+        pulley: String,
+    },
 }
 
 /// How tight the belt is, worked out on its path.

@@ -394,7 +394,8 @@ impl ForceLaw for BeltContact {
         });
         self.local = local;
         for (p, pulley) in self.pulleys.iter().enumerate() {
-            let slope = pulley.external.derivative(state.v[self.rotors() + p]);
+            let speed = state.v[self.rotors() + p];
+            let slope = pulley.external.derivative(state.time, speed);
             matrix.add_corner(p, p, -velocity_factor * slope);
         }
     }

@@ -28,6 +28,7 @@ pub struct Drive {
     /// Contact between belt and pulleys.
     pub contact: Contact,
     /// The pulleys in the order in which the belt meets them.
+    #[schemars(extend("minItems" = 2))]
     pub pulley: Vec<Pulley>,
     /// The time run.
     #[serde(default)]
@@ -81,6 +82,11 @@ impl BeltElement {
 /// The belt. Exactly one of `length`, `tension`, `strain` says how tight it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("allOf" = [{ "oneOf": [
+    { "required": ["length"] },
+    { "required": ["tension"] },
+    { "required": ["strain"] },
+] }]))]
 pub struct Belt {
     /// Element type.
     #[serde(default)]
@@ -410,6 +416,7 @@ impl Pulley {
         ExternalTorque {
             by_time: self.torque.clone(),
             by_speed: self.load.clone(),
+            stated: None,
         }
     }
 

@@ -2,16 +2,19 @@
 //!
 //! A law is a type with one method, in a file of its own. To add one: a file in `friction/`, a variant
 //! of [`Law`], one of [`crate::drive::Friction`] and the arms that the compiler then asks for (see
-//! CONTRIBUTING.md).
+//! CONTRIBUTING.md). A program that only wants a law for itself gives one to its run by
+//! [`crate::user_laws`].
 
 mod coulomb;
 mod creep_rate;
 mod elastic_plastic;
+mod stated;
 mod stribeck;
 
 pub use coulomb::Coulomb;
 pub use creep_rate::CreepRate;
 pub use elastic_plastic::ElasticPlastic;
+pub use stated::{ByDifferences, Stated, StatedFriction, differences};
 pub use stribeck::Stribeck;
 
 use std::fmt;
@@ -94,7 +97,7 @@ impl FrictionLaw for Frictionless {
 }
 
 /// Any of the laws: what a pulley's surface does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Law {
     /// No friction.
     Frictionless(Frictionless),
@@ -106,6 +109,8 @@ pub enum Law {
     Stribeck(Stribeck),
     /// Bristles with memory.
     ElasticPlastic(ElasticPlastic),
+    /// A law of the program that runs the drive.
+    Stated(Stated),
 }
 
 impl Law {
@@ -153,6 +158,8 @@ impl Law {
     #[must_use]
     pub fn eased(&self, grip: f64, softness: f64) -> Self {
         match *self {
+            // Nothing is known of a stated law that could be eased; steady running takes the drive's own.
+            Self::Stated(ref law) => Self::Stated(law.clone()),
             Self::Frictionless(law) => Self::Frictionless(law),
             Self::CreepRate(CreepRate { coefficient, slope }) => Self::CreepRate(CreepRate {
                 coefficient: coefficient * grip,
@@ -193,6 +200,7 @@ macro_rules! each {
             Self::Coulomb($law) => $call,
             Self::Stribeck($law) => $call,
             Self::ElasticPlastic($law) => $call,
+            Self::Stated($law) => $call,
         }
     };
 }

@@ -19,6 +19,7 @@ pub mod simulate;
 pub mod steady;
 pub mod summary;
 pub mod units;
+pub mod user_laws;
 pub mod validate;
 
 /// The Rust code of the README compiles.

@@ -8,6 +8,9 @@
 //! table     T linear between the given points, constant beyond them, with the sign given
 //! ```
 
+use std::fmt;
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -75,24 +78,70 @@ impl Load {
     }
 }
 
+/// An external torque that the program running a drive states itself.
+pub trait TorqueLaw: fmt::Debug + Send + Sync {
+    /// The torque on the pulley [N m], positive counter-clockwise, and its derivative by the speed [N m s], at
+    /// `time` [s] and `speed` [rad/s]. Over time it should be smooth: steps do not end at its kinks.
+    fn at(&self, time: f64, speed: f64) -> (f64, f64);
+}
+
+/// A torque given by a function of time and speed alone: the derivative is a central difference, two more calls.
+#[derive(Clone, Copy)]
+pub struct ByDifferences<F>(pub F);
+
+/// Speed [rad/s] below which the step of the difference no longer shrinks.
+const SMOOTH: f64 = 1.0e-3;
+
+impl<F> fmt::Debug for ByDifferences<F> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("ByDifferences")
+    }
+}
+
+impl<F: Fn(f64, f64) -> f64 + Send + Sync> TorqueLaw for ByDifferences<F> {
+    fn at(&self, time: f64, speed: f64) -> (f64, f64) {
+        let torque = &self.0;
+        difference(speed, &mut |speed| Some(torque(time, speed))).unwrap_or((f64::NAN, f64::NAN))
+    }
+}
+
+/// Value and central difference of `torque`; `None` as soon as it has none.
+pub fn difference(speed: f64, torque: &mut dyn FnMut(f64) -> Option<f64>) -> Option<(f64, f64)> {
+    let h = f64::EPSILON.cbrt() * speed.abs().max(SMOOTH);
+    let (back, ahead) = (speed - h, speed + h);
+    let value = torque(speed)?;
+    Some((value, (torque(ahead)? - torque(back)?) / (ahead - back)))
+}
+
 /// All that acts on a pulley from outside of the drive.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct ExternalTorque {
     /// The part that depends on time [N m].
     pub by_time: Profile,
     /// The part that depends on the speed.
     pub by_speed: Option<Load>,
+    /// The part that the program running the drive states.
+    pub stated: Option<Arc<dyn TorqueLaw>>,
 }
 
 impl ExternalTorque {
     /// The torque [N m] at `time` [s] and `speed` [rad/s].
     pub fn value(&self, time: f64, speed: f64) -> f64 {
-        self.by_time.value(time) + self.by_speed.as_ref().map_or(0.0, |load| load.at(speed).0)
+        self.by_time.value(time)
+            + self.by_speed.as_ref().map_or(0.0, |load| load.at(speed).0)
+            + self
+                .stated
+                .as_ref()
+                .map_or(0.0, |law| law.at(time, speed).0)
     }
 
     /// Its derivative by the speed [N m s].
-    pub fn derivative(&self, speed: f64) -> f64 {
+    pub fn derivative(&self, time: f64, speed: f64) -> f64 {
         self.by_speed.as_ref().map_or(0.0, |load| load.at(speed).1)
+            + self
+                .stated
+                .as_ref()
+                .map_or(0.0, |law| law.at(time, speed).1)
     }
 }
 
@@ -101,6 +150,7 @@ impl From<Profile> for ExternalTorque {
         Self {
             by_time,
             by_speed: None,
+            stated: None,
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::contact::{BeltPoint, ContactPulley, Lateral, PulleyContact};
 use crate::layout::Layout;
 
 use belt::BeltSurvey;
-pub use profile::ProfileRow;
+pub use profile::{EdgeRow, ProfileRow};
 pub use span::SpanState;
 pub use station::{PulleyLaw, Station, Stations, Touch};
 
@@ -271,6 +271,11 @@ impl Observer {
     /// coordinate.
     pub fn profile(&self, time: f64, element_start: &[f64]) -> Vec<ProfileRow> {
         self.belt.profile(time, element_start, &self.names)
+    }
+
+    /// The edges of a belt that is a surface, in order as [`Observer::profile`]; empty for others.
+    pub fn edges(&self, time: f64, element_start: &[f64]) -> Vec<EdgeRow> {
+        self.belt.edges(time, element_start)
     }
 
     /// Largest penetration of the state looked at last [m].

@@ -92,6 +92,9 @@ pub fn write(
     folder.rows("profile.csv", &outcome.profile)?;
     if !outcome.frames.is_empty() {
         folder.rows("frames.csv", &outcome.frames)?;
+        if !outcome.edges.is_empty() {
+            folder.rows("edges.csv", &outcome.edges)?;
+        }
         if options.vtk {
             vtk::write(&folder, drive, outcome)?;
         }
@@ -216,12 +219,13 @@ fn check_free(place: &Path, overwrite: bool) -> Result<(), RecordError> {
 }
 
 /// Files that a result folder may hold, beside those of [`vtk`].
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "drive.toml",
     "summary.json",
     "history.csv",
     "profile.csv",
     "frames.csv",
+    "edges.csv",
     "belt.pvd",
     "report.html",
     "map.csv",

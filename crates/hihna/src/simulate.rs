@@ -17,7 +17,8 @@ use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, PlateA
 use crate::drive::{BeltElement, Drive, Joint};
 use crate::history::History;
 use crate::layout::Layout;
-use crate::observe::{ProfileRow, PulleyLaw};
+use crate::observe::{EdgeRow, ProfileRow, PulleyLaw};
+use crate::user_laws::{UserLawError, UserLaws};
 
 pub use control::nominal_speed;
 use place::place;
@@ -63,6 +64,8 @@ pub struct Outcome {
     pub profile: Vec<ProfileRow>,
     /// The belt at the times of the frames.
     pub frames: Vec<ProfileRow>,
+    /// The edges of a belt of plates at the same times and places; empty for other belts.
+    pub edges: Vec<EdgeRow>,
     /// What the stepping cost.
     pub statistics: Statistics,
     /// CPU time of the stepping alone, without the rows of the records [s].
@@ -121,6 +124,9 @@ pub enum RunError {
     /// The drive cannot be put together.
     #[error(transparent)]
     Assembly(#[from] AssemblyError),
+    /// A law of the program's has no pulley to act on.
+    #[error(transparent)]
+    UserLaw(#[from] UserLawError),
     /// No equilibrium at rest was found.
     #[error("the belt finds no equilibrium at rest on the pulleys, {place}: {cause}")]
     Start {
@@ -184,16 +190,29 @@ pub fn simulate(
     drive: &Drive,
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Outcome, RunError> {
+    simulate_with(drive, &UserLaws::default(), observer)
+}
+
+/// Runs `drive` with laws of the caller's.
+pub fn simulate_with(
+    drive: &Drive,
+    laws: &UserLaws,
+    observer: &mut dyn FnMut(&Progress) -> Flow,
+) -> Result<Outcome, RunError> {
+    laws.check(drive)?;
     match drive.belt.element {
-        BeltElement::BeltBeam => planar::<BeltBeam2>(drive, observer),
-        BeltElement::CubicBeam => planar::<CubicBeam2>(drive, observer),
-        BeltElement::LinearBeam => planar::<LinearBeam2>(drive, observer),
+        BeltElement::BeltBeam => planar::<BeltBeam2>(drive, laws, observer),
+        BeltElement::CubicBeam => planar::<CubicBeam2>(drive, laws, observer),
+        BeltElement::LinearBeam => planar::<LinearBeam2>(drive, laws, observer),
         BeltElement::Plate => run(
             drive,
+            laws,
             observer,
             || PlateAssembly::of_plates(drive),
             |assembly| {
                 assembly.release_plates(drive);
+                let pulleys = assembly.system.law.pulleys.iter_mut();
+                laws.put_on(drive, pulleys.map(|p| (&mut p.friction, &mut p.external)));
                 Ok(())
             },
         ),
@@ -202,10 +221,12 @@ pub fn simulate(
 
 fn planar<E: BeltElementType>(
     drive: &Drive,
+    laws: &UserLaws,
     observer: &mut dyn FnMut(&Progress) -> Flow,
 ) -> Result<Outcome, RunError> {
     run(
         drive,
+        laws,
         observer,
         || Assembly::<E>::new(drive),
         |assembly| {
@@ -213,6 +234,8 @@ fn planar<E: BeltElementType>(
                 assembly.open_joint(drive)?;
             }
             assembly.release(drive);
+            let pulleys = assembly.system.law.pulleys.iter_mut();
+            laws.put_on(drive, pulleys.map(|p| (&mut p.friction, &mut p.external)));
             Ok(())
         },
     )
@@ -222,6 +245,7 @@ fn planar<E: BeltElementType>(
 /// torques.
 fn run<E: Element, L: PulleyLaw<E>>(
     drive: &Drive,
+    laws: &UserLaws,
     observer: &mut dyn FnMut(&Progress) -> Flow,
     assemble: impl FnOnce() -> Result<Assembly<E, L>, AssemblyError>,
     release: impl FnOnce(&mut Assembly<E, L>) -> Result<(), AssemblyError>,
@@ -231,7 +255,8 @@ fn run<E: Element, L: PulleyLaw<E>>(
     let mut assembly = assemble()?;
     let settled = settle_on_pulleys(drive, &mut assembly, REST, observer)?;
     release(&mut assembly)?;
-    let control = control::control(drive, &assembly.mounting);
+    assembly.warnings.extend(laws.warnings());
+    let control = control::control(drive, laws, &assembly.mounting);
     let count = end / control.step;
     if count.is_nan() || count > MOST_STEPS {
         let step = control.step;
@@ -311,6 +336,7 @@ fn run<E: Element, L: PulleyLaw<E>>(
         history: recorder.history,
         profile: recorder.profile,
         frames: recorder.frames,
+        edges: recorder.edges,
         statistics,
         cpu_seconds,
         wall_seconds: wall.elapsed().as_secs_f64(),

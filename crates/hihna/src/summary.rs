@@ -4,10 +4,12 @@ mod warnings;
 
 use serde::{Serialize, Serializer};
 
+use crate::assemble::Warning;
 use crate::drive::{BeltElement, Drive};
 use crate::history::History;
 use crate::layout::Arc;
 use crate::simulate::Outcome;
+use crate::user_laws::FRICTION;
 
 /// Part of the run, at its end, over which steady means are taken.
 const STEADY_PART: f64 = 0.1;
@@ -43,6 +45,9 @@ pub struct Summary {
     pub audit: Audit,
     /// Things to know.
     pub warnings: Vec<String>,
+    /// Pulleys whose friction the program that ran the drive stated itself (`hihna::user_laws`).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stated_friction: Vec<String>,
 }
 
 /// Size of the model.
@@ -218,6 +223,15 @@ pub struct Audit {
     pub passed: bool,
 }
 
+/// Pulleys whose friction is not the drive's.
+fn stated_friction(warnings: &[Warning]) -> Vec<String> {
+    let pulley = |warning: &Warning| match warning {
+        Warning::StatedLaw { law, pulley } if *law == FRICTION => Some(pulley.clone()),
+        _ => None,
+    };
+    warnings.iter().filter_map(pulley).collect()
+}
+
 impl Summary {
     /// The summary of `outcome`.
     #[must_use]
@@ -268,6 +282,7 @@ impl Summary {
                 passed: outcome.audit.passed(),
             },
             warnings,
+            stated_friction: stated_friction(&outcome.warnings),
         }
     }
 }

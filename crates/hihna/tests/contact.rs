@@ -51,7 +51,7 @@ const BRISTLES: Law = Law::ElasticPlastic(ElasticPlastic {
 });
 
 /// Contact of the loop on its two pulleys, on its centre line or (`height`) on its faces.
-fn contact(friction: Law, clamp: bool, height: f64) -> BeltContact {
+fn contact(friction: &Law, clamp: bool, height: f64) -> BeltContact {
     let element = BeltBeam2::new(
         TAU * RADIUS / ELEMENTS as f64,
         &PlanarSection::rectangle(0.01, 0.01),
@@ -68,7 +68,7 @@ fn contact(friction: Law, clamp: bool, height: f64) -> BeltContact {
         center,
         displacement: None,
         radius,
-        friction,
+        friction: friction.clone(),
         height,
         external: Profile::Constant(torque).into(),
     };
@@ -189,7 +189,7 @@ fn kind(coordinate: usize) -> usize {
 /// 1e-10. In the velocities most laws are at most quadratic between kinks; the Stribeck curve changes
 /// over 0.2 m/s, of which 1e-5 m/s has a truncation of 1e-8 and leaves a rounding of a few 1e-8. Entries are held to 1e-7 of the largest of their kind (force or torque by position, slope
 /// or angle), a little above both.
-fn check_every_entry(friction: Law, clamp: bool, height: f64) {
+fn check_every_entry(friction: &Law, clamp: bool, height: f64) {
     let mut law = contact(friction, clamp, height);
     let (q, v) = wobbling_loop();
     let structure = Structure {
@@ -254,7 +254,7 @@ fn check_every_entry(friction: Law, clamp: bool, height: f64) {
 }
 
 /// On the centre line and on the faces.
-fn check_with(friction: Law) {
+fn check_with(friction: &Law) {
     let (q, v) = wobbling_loop();
     for (clamp, height) in [(false, 0.0), (true, 0.0), (false, FACE), (true, FACE)] {
         let [stick, slip, pull] = regimes(&contact(friction, clamp, height), &q, &v);
@@ -269,22 +269,22 @@ fn check_with(friction: Law) {
 
 #[test]
 fn every_entry_of_the_tangent_under_creep_rate_friction() {
-    check_with(CREEP);
+    check_with(&CREEP);
 }
 
 #[test]
 fn every_entry_of_the_tangent_under_coulomb_friction() {
-    check_with(COULOMB);
+    check_with(&COULOMB);
 }
 
 #[test]
 fn every_entry_of_the_tangent_under_stribeck_friction() {
-    check_with(STRIBECK);
+    check_with(&STRIBECK);
 }
 
 #[test]
 fn every_entry_of_the_tangent_under_elastic_plastic_friction() {
-    check_with(BRISTLES);
+    check_with(&BRISTLES);
 }
 
 #[test]
@@ -294,7 +294,7 @@ fn every_entry_of_the_tangent_without_friction() {
 
 /// Without friction nothing depends on the pulleys' speeds, so the border must be zero.
 fn check_every_entry_frictionless() {
-    let mut law = contact(Law::Frictionless(Frictionless), false, 0.0);
+    let mut law = contact(&Law::Frictionless(Frictionless), false, 0.0);
     let (q, v) = wobbling_loop();
     let mut matrix = BorderedMatrix::new(Structure {
         sections: ELEMENTS,
@@ -330,7 +330,7 @@ fn check_every_entry_frictionless() {
 /// forces on belt and hubs cancel, and so do moments about the pulley's centre.
 #[test]
 fn forces_and_moments_of_belt_and_pulleys_cancel() {
-    let mut law = contact(CREEP, false, 0.0);
+    let mut law = contact(&CREEP, false, 0.0);
     let (q, v) = wobbling_loop();
     let mut totals = [PulleyContact::default(); PULLEYS];
     law.resultants(
@@ -375,7 +375,7 @@ fn forces_and_moments_of_belt_and_pulleys_cancel() {
 #[test]
 fn power_of_the_contact_is_accounted_for() {
     for clamp in [false, true] {
-        let mut law = contact(CREEP, clamp, FACE);
+        let mut law = contact(&CREEP, clamp, FACE);
         let (q, v) = wobbling_loop();
         let mut totals = [PulleyContact::default(); PULLEYS];
         law.resultants(

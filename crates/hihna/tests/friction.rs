@@ -108,27 +108,27 @@ fn closed_forms() {
             "{ours} {exact}"
         );
     };
-    let force = |law: Law, v: f64, z: f64| at(&law, v, z, 500.0).force;
+    let force = |law: &Law, v: f64, z: f64| at(law, v, z, 500.0).force;
     // creep: limit 600 N/m, reached at a slip of 6 mm/s
     let creep = Law::CreepRate(CREEP);
-    near(force(creep, 0.003, 0.0), 300.0);
-    near(force(creep, 0.05, 0.0), 600.0);
+    near(force(&creep, 0.003, 0.0), 300.0);
+    near(force(&creep, 0.05, 0.0), 600.0);
     // Coulomb: limit 300 N/m, reached at 0.1 m/s
     let coulomb = Law::Coulomb(COULOMB);
-    near(force(coulomb, 0.025, 0.0), 75.0);
-    near(force(coulomb, 2.0, 0.0), 300.0);
+    near(force(&coulomb, 0.025, 0.0), 75.0);
+    near(force(&coulomb, 2.0, 0.0), 300.0);
     // Stribeck: half of the drop is gone at 0.2 m/s
     let stribeck = Law::Stribeck(STRIBECK);
-    near(force(stribeck, 0.2, 0.0), 350.0);
+    near(force(&stribeck, 0.2, 0.0), 350.0);
     near(
-        force(stribeck, 0.05, 0.0),
+        force(&stribeck, 0.05, 0.0),
         0.5 * 500.0 * (0.5 + 0.4 / 1.0625),
     );
     // bristles: 4 N/m per micrometre and 2 N/m per mm/s up to 400 N/m
     let bristles = Law::ElasticPlastic(BRISTLES);
-    near(force(bristles, 0.0, 5.0e-5), 200.0);
-    near(force(bristles, 0.01, 5.0e-5), 220.0);
-    near(force(bristles, 0.0, 5.0e-3), 400.0);
+    near(force(&bristles, 0.0, 5.0e-5), 200.0);
+    near(force(&bristles, 0.01, 5.0e-5), 220.0);
+    near(force(&bristles, 0.0, 5.0e-3), 400.0);
     near(BRISTLES.elastic_limit(500.0).expect("memory"), 1.0e-4);
 }
 

@@ -143,4 +143,17 @@ impl<S: Scalar> Scalar for Series<S> {
             self.value.select_positive(yes.slope, no.slope),
         )
     }
+
+    fn apply<const N: usize>(
+        arguments: [Self; N],
+        function: &mut dyn FnMut([f64; N]) -> (f64, [f64; N]),
+    ) -> (Self, [Self; N]) {
+        let (value, derivatives) = S::apply(arguments.map(|x| x.value), function);
+        let mut slope = S::zero();
+        for (x, derivative) in arguments.iter().zip(derivatives) {
+            slope += derivative * x.slope;
+        }
+        let constant = |derivative| Self::new(derivative, S::zero());
+        (Self::new(value, slope), derivatives.map(constant))
+    }
 }

@@ -188,6 +188,18 @@ impl<T: Present, const N: usize> Scalar for Wide<T, N> {
         }
         out
     }
+
+    #[inline(never)]
+    fn apply<const M: usize>(
+        arguments: [Self; M],
+        function: &mut dyn FnMut([f64; M]) -> (f64, [f64; M]),
+    ) -> (Self, [Self; M]) {
+        let (value, derivatives) = Lanes::apply(arguments.map(|x| Lanes(x.store())), function);
+        (
+            Self::load(&value.0),
+            derivatives.map(|derivative| Self::load(&derivative.0)),
+        )
+    }
 }
 
 macro_rules! operator {

@@ -11,6 +11,10 @@ from typing import Any
 from ._native import NativeDrive
 from .results import Results
 
+FrictionLaw = Callable[[float, float], "float | tuple[float, float, float]"]
+TorqueLaw = Callable[[float, float], "float | tuple[float, float]"]
+
+
 def _plain(value: Any) -> Any:
     """NumPy's numbers and arrays as Python's."""
     if hasattr(value, "tolist"):
@@ -20,6 +24,13 @@ def _plain(value: Any) -> Any:
 
 def _changes(changes: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [(path.replace("__", "."), json.dumps(value, default=_plain)) for path, value in changes.items()]
+
+
+def _functions(what: str, given: Mapping[str, Any] | None) -> list[tuple[str, Any]]:
+    for pulley, function in (given or {}).items():
+        if not callable(function):
+            raise TypeError(f"{what} of pulley {pulley!r} is not a function but {function!r}; fields are changed by `with_`")
+    return list((given or {}).items())
 
 
 class Drive:
@@ -65,19 +76,38 @@ class Drive:
         """The drive file, defaults written out."""
         return self._native.to_toml()
 
-    def run(self, progress: Callable[[float, float], object] | None = None) -> Results:
+    def run(
+        self,
+        progress: Callable[[float, float], object] | None = None,
+        *,
+        friction: Mapping[str, FrictionLaw] | None = None,
+        load: Mapping[str, TorqueLaw] | None = None,
+    ) -> Results:
         """Simulate the drive. Other threads go on meanwhile, and Ctrl-C stops it.
 
-        `progress` is called about ten times a second with the time reached and the end time [s]. Raises `RunError`.
+        `progress` is called about ten times a second with the time reached and the end time [s].
+
+        `friction` has functions by the names of pulleys that take the place of the friction there: slip velocity [m/s],
+        normal force per length of belt [N/m] (of plates per area [N/m²]) -> friction force per length in the direction
+        of the slip, alone or as a tuple with its derivatives by both. `load` has functions that take the place of
+        `torque` and `load` of a pulley: time [s], speed [rad/s] -> torque [N m], counter-clockwise positive, alone or
+        with its derivative by the speed. Derivatives that are not given are differences. The solver calls such a
+        function for every point of contact in every iteration, so a run is many times slower.
+
+        Raises `RunError`, and `ValueError` where a function has no pulley to act on. What a function raises is the
+        cause of a `RunError` that names it.
         """
-        return Results(self._native.run(progress))
+        return Results(self._native.run(progress, _functions("friction", friction), _functions("load", load)))
 
     def steady(self, model: str = "full", closure: str = "length") -> dict[str, Any]:
-        """What the drive settles to by the theory of the extensible string.
+        """What the drive settles to, by the theory of the extensible string or by finite elements.
 
-        `model` is ``"full"``, ``"centrifugal"`` or ``"capstan"``; `closure` ``"length"`` or ``"tension-sum"``. The
-        answer has `answer` (``"running"``, ``"gross-slip"`` or ``"slack"``) and `message`; of a drive that runs
-        `pulley`, `span`, `power_in`, `power_out`, `power_lost`, `efficiency` and `capacity`. Raises `InputError`.
+        `model` is ``"full"``, ``"centrifugal"`` or ``"capstan"`` for the string, ``"fe"`` for the elements of `run`
+        without stepping through time; `closure`, of the string, ``"length"`` or ``"tension-sum"``. The answer has
+        `answer` (``"running"``, ``"gross-slip"`` or ``"slack"``) and `message`. Of a drive that runs the string gives
+        `pulley`, `span`, `power_in`, `power_out`, `power_lost`, `efficiency` and `capacity`; finite elements give
+        `steady` with the same but for `capacity`, which stands beside it, and `model`, `start`, `solver`, `audit`: the
+        ``summary.json`` of ``hihna steady --model fe``. Raises `InputError`, `RunError`.
         """
         answer: dict[str, Any] = json.loads(self._native.steady(model, closure))
         return answer

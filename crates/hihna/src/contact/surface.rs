@@ -296,7 +296,8 @@ impl ForceLaw for SurfaceContact {
         });
         self.local = local;
         for (p, pulley) in self.pulleys.iter().enumerate() {
-            let slope = pulley.external.derivative(state.v[self.chain + p]);
+            let speed = state.v[self.chain + p];
+            let slope = pulley.external.derivative(state.time, speed);
             matrix.add_corner(p, p, -velocity_factor * slope);
         }
     }

@@ -1,6 +1,7 @@
 //! The belt point by point, as `profile.csv` has it.
 
 use super::belt::BeltSurvey;
+use super::station::Station;
 
 /// One row of the belt's profile; fields as in `profile.csv`, SI units.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -28,7 +29,45 @@ pub struct ProfileRow {
     pub pulley: String,
 }
 
+/// One row of `edges.csv`: the edges of a belt that is a surface, beside the row of `frames.csv` of the same time and
+/// material coordinate. Edge 0 is that of the lesser z on a drive in its plane. SI units.
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[expect(
+    missing_docs,
+    reason = "columns of edges.csv, described in the user guide"
+)]
+pub struct EdgeRow {
+    pub time: f64,
+    pub material_coordinate: f64,
+    pub x0: f64,
+    pub y0: f64,
+    pub z0: f64,
+    pub x1: f64,
+    pub y1: f64,
+    pub z1: f64,
+}
+
 impl BeltSurvey {
+    /// The edges at every integration point that has any, in order of material coordinate.
+    pub fn edges(&self, time: f64, element_start: &[f64]) -> Vec<EdgeRow> {
+        let stations = &self.stations;
+        let row = |point: &Station| {
+            let [[x0, y0, z0], [x1, y1, z1]] = point.edges?;
+            Some(EdgeRow {
+                time,
+                material_coordinate: element_start[point.element]
+                    + point.xi * stations.element_length[point.element],
+                x0,
+                y0,
+                z0,
+                x1,
+                y1,
+                z1,
+            })
+        };
+        stations.points.iter().filter_map(row).collect()
+    }
+
     /// Every integration point, in order of material coordinate.
     pub fn profile(&self, time: f64, element_start: &[f64], names: &[String]) -> Vec<ProfileRow> {
         self.stations

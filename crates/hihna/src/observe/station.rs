@@ -33,6 +33,8 @@ pub struct Station {
     pub speed: f64,
     /// Turn of the point per length of belt about the pulley it touches, unsigned [rad/m].
     pub turn: f64,
+    /// Position of the edges y = 0 and the other [m], of a belt that is a surface.
+    pub edges: Option<[[f64; 3]; 2]>,
 }
 
 /// Contact of a section with a pulley.
@@ -147,6 +149,7 @@ pub(super) fn stations_at<E: LineElement>(
             jacobian: element.jacobian(e, point.xi),
             speed: (slope[0] * point.velocity[0] + slope[1] * point.velocity[1]) / stretch,
             turn,
+            edges: None,
         });
     }
 }

@@ -84,6 +84,8 @@ impl SectionPlaces {
 struct SectionTable {
     /// Position and r_x, r_y on the line, by contact point.
     line: Vec<[[f64; VECTORS]; 3]>,
+    /// Position on the edges of an element, by contact point.
+    edges: Vec<[[f64; VECTORS]; 2]>,
     /// r_x, r_y at the Gauss points, by contact point.
     across: Vec<[[[f64; VECTORS]; 2]; ACROSS]>,
     /// Weights of the Gauss points times the width [m].
@@ -122,6 +124,15 @@ impl SectionTable {
                     element.surface([*xi, eta], &mut shape);
                     let [by_x, by_y] = slopes([*xi, eta]);
                     [shape, by_x, by_y]
+                })
+                .collect(),
+            edges: (rule.points.iter())
+                .map(|xi| {
+                    [0.0, 1.0].map(|eta| {
+                        let mut shape = [0.0; VECTORS];
+                        element.surface([*xi, eta], &mut shape);
+                        shape
+                    })
                 })
                 .collect(),
             across: (rule.points.iter())
@@ -205,7 +216,19 @@ impl Sections<'_> {
         station.weight = rule.weights[k] * self.mesh.elements()[first].length();
         station.touch = touch;
         station.tension = tension;
+        station.edges = Some(self.edges(k));
         station
+    }
+
+    /// Positions on the belt's edges, of the first and of the last element across.
+    fn edges(&self, k: usize) -> [[f64; 3]; 2] {
+        let first = self.row * self.across;
+        std::array::from_fn(|side| {
+            let mut e = [0.0; DOF];
+            let element = first + side * (self.across - 1);
+            self.mesh.gather(element, &self.motion.q, &mut e);
+            combine(&self.tables.edges[k][side], &e)
+        })
     }
 
     /// Position, strains and speed on the line that is shown.

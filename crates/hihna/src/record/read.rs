@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::drive::Drive;
 use crate::history::History;
 use crate::input::{self, InputErrors};
-use crate::observe::ProfileRow;
+use crate::observe::{EdgeRow, ProfileRow};
 
 /// What a run left in its folder.
 #[derive(Clone, Debug)]
@@ -24,6 +24,8 @@ pub struct Results {
     pub profile: Vec<ProfileRow>,
     /// The belt at the times of the frames; empty if the run kept none.
     pub frames: Vec<ProfileRow>,
+    /// The edges of a belt of plates there; empty for other belts.
+    pub edges: Vec<EdgeRow>,
 }
 
 /// A folder that holds no results of a run.
@@ -69,17 +71,13 @@ impl Results {
         let summary = dir.join("summary.json");
         let summary = serde_json::from_str(&read_text(&summary)?)
             .map_err(|cause| content(&summary, &cause))?;
-        let frames = dir.join("frames.csv");
         Ok(Self {
             drive,
             summary,
             history: read_history(&dir.join("history.csv"))?,
             profile: read_rows(&dir.join("profile.csv"))?,
-            frames: if frames.exists() {
-                read_rows(&frames)?
-            } else {
-                Vec::new()
-            },
+            frames: read_rows_if_there(&dir.join("frames.csv"))?,
+            edges: read_rows_if_there(&dir.join("edges.csv"))?,
         })
     }
 
@@ -123,6 +121,14 @@ fn read_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, ReadError> {
         .deserialize()
         .collect::<Result<_, _>>()
         .map_err(|cause| content(path, &cause))
+}
+
+fn read_rows_if_there<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, ReadError> {
+    if path.exists() {
+        read_rows(path)
+    } else {
+        Ok(Vec::new())
+    }
 }
 
 fn read_history(path: &Path) -> Result<History, ReadError> {

@@ -11,7 +11,7 @@ use std::fmt::Write;
 use super::{Folder, RecordError};
 use crate::drive::{Drive, Pulley};
 use crate::history::History;
-use crate::observe::ProfileRow;
+use crate::observe::{EdgeRow, ProfileRow};
 use crate::simulate::Outcome;
 
 const TRIANGLE: u8 = 5;
@@ -28,10 +28,13 @@ pub(super) fn write(folder: &Folder, drive: &Drive, outcome: &Outcome) -> Result
     let frames = outcome
         .frames
         .chunk_by(|a, b| a.time.to_bits() == b.time.to_bits());
+    let mut begun = 0;
     for (i, frame) in frames.enumerate() {
         let time = frame[0].time;
+        let edges = outcome.edges.get(begun..begun + frame.len());
+        begun += frame.len();
         let parts = [
-            ("belt", belt(frame, drive)),
+            ("belt", belt(frame, edges.unwrap_or_default(), drive)),
             ("pulleys", pulleys(drive, &outcome.history, time)),
         ];
         for (part, (name, grid)) in parts.iter().enumerate() {
@@ -58,16 +61,22 @@ pub(super) fn is_frame(name: &OsStr) -> bool {
     number.is_some_and(|number| !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()))
 }
 
-/// The belt of one frame. Rows lie on the line of the belt that the profile shows.
-fn belt(rows: &[ProfileRow], drive: &Drive) -> Grid {
-    let (width, line) = (drive.belt.width, drive.run.profile_line);
+/// The belt of one frame between its edges; without them as a flat strip of its width, its rows in the middle.
+fn belt(rows: &[ProfileRow], edges: &[EdgeRow], drive: &Drive) -> Grid {
+    let half = 0.5 * drive.belt.width;
+    let points = if edges.is_empty() {
+        (rows.iter())
+            .flat_map(|row| [-half, half].map(|side| [row.x, row.y, row.z + side]))
+            .collect()
+    } else {
+        (edges.iter())
+            .flat_map(|row| [[row.x0, row.y0, row.z0], [row.x1, row.y1, row.z1]])
+            .collect()
+    };
     let edges =
         |value: fn(&ProfileRow) -> f64| rows.iter().flat_map(|row| [value(row); 2]).collect();
     let mut grid = Grid {
-        points: rows
-            .iter()
-            .flat_map(|row| [-line, 1.0 - line].map(|side| [row.x, row.y, row.z + side * width]))
-            .collect(),
+        points,
         fields: vec![
             ("material_coordinate", edges(|row| row.material_coordinate)),
             ("tension", edges(|row| row.tension)),
@@ -305,7 +314,7 @@ mod tests {
         let text = include_str!("../../../../examples/two_pulley.toml");
         let mut drive = crate::input::parse("drive", text, &[]).unwrap();
         drive.belt.width = 0.5;
-        let grid = belt(&[row(0.0), row(1.0), row(2.0)], &drive);
+        let grid = belt(&[row(0.0), row(1.0), row(2.0)], &[], &drive);
         assert_eq!(grid.points[1], [0.0, 0.0, 0.25]);
         let file = grid.to_vtu(0.5);
         let start = file.windows(3).position(|w| w == b"\n_\x90").unwrap() + 2;

@@ -4,8 +4,9 @@ use ancf::dynamics::{Control, Method};
 
 use crate::assemble::Mounting;
 use crate::drive::{Drive, Integrator, Step};
-use crate::friction::{FrictionLaw, Law};
+use crate::friction::FrictionLaw;
 use crate::profile::Profile;
+use crate::user_laws::UserLaws;
 
 /// Accuracy at which the constants below hold.
 const REFERENCE_ACCURACY: f64 = 1.0e-3;
@@ -56,7 +57,7 @@ fn slope_bound(profile: &Profile) -> f64 {
 /// acceleration misses the step of the centripetal acceleration there by `h v² / R`. The largest step
 /// lets the belt turn by a fiftieth of a radian; [`PREDICTION_TOLERANCE`] finds smaller ones. Both go
 /// with the square root of the accuracy, as the schemes are of second order.
-pub(super) fn control(drive: &Drive, mounting: &Mounting) -> Control {
+pub(super) fn control(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> Control {
     let run = &drive.run;
     let speed = nominal_speed(drive);
     let fineness = (run.accuracy / REFERENCE_ACCURACY).sqrt();
@@ -72,7 +73,7 @@ pub(super) fn control(drive: &Drive, mounting: &Mounting) -> Control {
     };
     let (step, error_tolerance) = match (run.step, method) {
         (Step::Fixed(step), _) => (step, None),
-        (Step::Named(_), Method::RungeKutta) => (explicit_step(drive, mounting), None),
+        (Step::Named(_), Method::RungeKutta) => (explicit_step(drive, laws, mounting), None),
         (Step::Named(_), _) => (
             (0.02 * smallest / speed * fineness)
                 .min(SWING_STEP * fineness / slowest_swing(drive, mounting))
@@ -139,7 +140,7 @@ fn fastest_harmonic(drive: &Drive) -> f64 {
 /// A stable step of the explicit scheme: half its real stability limit 2.78 for friction at full
 /// creep and contact damping, and half its imaginary one 2.83 for the fastest elastic mode. The
 /// consistent mass of a cubic element lets modes be up to four times faster than the local rates.
-fn explicit_step(drive: &Drive, mounting: &Mounting) -> f64 {
+fn explicit_step(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> f64 {
     let belt = &drive.belt;
     let line_density = belt.density * belt.width * belt.thickness;
     let smallest = drive
@@ -150,7 +151,7 @@ fn explicit_step(drive: &Drive, mounting: &Mounting) -> f64 {
     let (slope, bristles) = drive
         .pulley
         .iter()
-        .map(|pulley| Law::new(drive.friction_on(pulley), pulley.grip()))
+        .map(|pulley| laws.friction_on(drive, pulley))
         .map(|law| (law.steepest_damping(pressure), law.steepest_stiffness()))
         .fold((0.0, 0.0), |most: (f64, f64), law| {
             (most.0.max(law.0), most.1.max(law.1))

@@ -13,7 +13,9 @@ use crate::assemble::{Assembly, Mounting};
 use crate::drive::Drive;
 use crate::history::History;
 use crate::layout::Layout;
-use crate::observe::{Observer, Powers, ProfileRow, PulleyLaw, PulleyState, SpanState, Stored};
+use crate::observe::{
+    EdgeRow, Observer, Powers, ProfileRow, PulleyLaw, PulleyState, SpanState, Stored,
+};
 
 /// A pulley that hardly takes a torque is judged by this part of the tension at rest times its radius: what
 /// accuracy means for the drive as a whole.
@@ -29,6 +31,7 @@ pub(super) struct Recorder {
     pub history: History,
     pub profile: Vec<ProfileRow>,
     pub frames: Vec<ProfileRow>,
+    pub edges: Vec<EdgeRow>,
     /// CPU time that rows and profiles took.
     pub recording: Duration,
     state: Motion,
@@ -84,6 +87,7 @@ impl Recorder {
             history: History::new(&names, drive.belt.element.is_spatial()),
             profile: Vec::new(),
             frames: Vec::new(),
+            edges: Vec::new(),
             state: assembly.motion.clone(),
             output_times: output_times(0.0, end, drive.run.output_interval),
             next_output: 0,
@@ -221,6 +225,8 @@ impl Recorder {
             self.observer.survey(system, &state);
             let rows = self.observer.profile(state.time, &self.element_start);
             self.frames.extend(rows);
+            let edges = self.observer.edges(state.time, &self.element_start);
+            self.edges.extend(edges);
             self.next_frame += 1;
         }
         self.state = state;

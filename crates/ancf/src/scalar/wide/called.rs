@@ -69,6 +69,14 @@ impl Scalar for Called {
     fn select_positive(self, yes: Self, no: Self) -> Self {
         Self(self.0.select_positive(yes.0, no.0))
     }
+    #[inline(never)]
+    fn apply<const N: usize>(
+        arguments: [Self; N],
+        function: &mut dyn FnMut([f64; N]) -> (f64, [f64; N]),
+    ) -> (Self, [Self; N]) {
+        let (value, derivatives) = Lanes::apply(arguments.map(|x| x.0), function);
+        (Self(value), derivatives.map(Self))
+    }
 }
 
 impl EightLanes for Called {

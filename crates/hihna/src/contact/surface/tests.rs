@@ -128,7 +128,7 @@ proptest! {
         x in points(), law in 0..3_usize, directions in directions(), clamp in any::<bool>(),
         tilt in prop::array::uniform2(-0.3..0.3_f64), slope in -0.2..0.2_f64, curvature in -2.0..2.0_f64,
     ) {
-        let pulley = pulley(LAWS[law], tilt, slope, curvature);
+        let pulley = pulley(LAWS[law].clone(), tilt, slope, curvature);
         let found = analytic(&pulley, directions, clamp, x);
         let mut expected = [[0.0; 7]; 4];
         for column in 0..7 {
@@ -161,8 +161,8 @@ proptest! {
         x in points(), law in 0..3_usize, directions in directions(),
         tilt in prop::array::uniform2(-0.3..0.3_f64), slope in -0.2..0.2_f64, curvature in -2.0..2.0_f64,
     ) {
-        let aligned = pulley(LAWS[law], [0.0; 2], slope, curvature);
-        let tilted = pulley(LAWS[law], tilt, slope, curvature);
+        let aligned = pulley(LAWS[law].clone(), [0.0; 2], slope, curvature);
+        let tilted = pulley(LAWS[law].clone(), tilt, slope, curvature);
         let [(sx, cx), (sy, cy)] = tilt.map(f64::sin_cos);
         // About x, then about y.
         let turn = |a: [f64; 3]| {
@@ -185,7 +185,7 @@ proptest! {
     /// Coulomb's disc.
     #[test]
     fn friction_stays_in_the_disc(x in points(), speed in -12.0..12.0_f64) {
-        let pulley = pulley(LAWS[0], [0.0; 2], 0.0, 0.0);
+        let pulley = pulley(LAWS[0].clone(), [0.0; 2], 0.0, 0.0);
         let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false };
         let meeting = Meeting { arm: [x[0], x[1], x[2]], v: [x[3], x[4], x[5]], speed };
         let at = SurfacePoint::new(&penalty, &pulley, FrictionDirections::Both, &meeting);

@@ -168,7 +168,7 @@ impl<E: LineElement> Equations<E> {
             }
             let external = &self.contact.pulleys[p].external;
             let (speed, factor) = (motion.speeds[p], z[load]);
-            matrix.add_corner(p, p, -factor * external.derivative(speed));
+            matrix.add_corner(p, p, -factor * external.derivative(0.0, speed));
             matrix.add_corner(p, pulleys + 1, -external.value(0.0, speed));
         }
         let Phase { at, tangent, .. } = self.phase;

@@ -57,14 +57,14 @@ impl<E: BeltElementType> RunningBelt<E> {
         assembly
             .warnings
             .extend(coarse_mesh(drive, &assembly.mounting));
-        let frictionless = assembly.system.law.pulleys.iter().map(|p| p.friction);
+        let frictionless = (assembly.system.law.pulleys.iter()).map(|p| p.friction.clone());
         let frictionless: Vec<_> = frictionless.collect();
         assembly.release(drive);
         for (contact, pulley) in assembly.system.law.pulleys.iter_mut().zip(&drive.pulley) {
             contact.external = final_torque(pulley);
         }
         let laws = (assembly.system.law.pulleys.iter())
-            .map(|p| p.friction)
+            .map(|p| p.friction.clone())
             .collect();
         let equations = equations(drive, &assembly, prescribed);
         assembly.system.law.set_friction(frictionless);
@@ -212,6 +212,7 @@ fn final_torque(pulley: &Pulley) -> ExternalTorque {
     ExternalTorque {
         by_time: Profile::Constant(final_value(&pulley.torque)),
         by_speed: pulley.load.clone(),
+        stated: None,
     }
 }
 
@@ -299,6 +300,6 @@ fn mean_stretch<E: LineElement>(mesh: &Mesh<E>, q: &[f64]) -> f64 {
 /// The friction laws of a drive's pulleys as they are.
 pub(super) fn set_laws<E: LineElement>(equations: &mut Equations<E>, laws: &[Law]) {
     for (pulley, law) in equations.contact.pulleys.iter_mut().zip(laws) {
-        pulley.friction = *law;
+        pulley.friction.clone_from(law);
     }
 }
