@@ -4,6 +4,8 @@ Commands of a block run in a fresh folder with the `examples` and the drive file
 `# name.toml` is saved under that name. Fragments of drive files are put into the built-in drive. `HIHNA` is the program.
 """
 
+import json
+import math
 import os
 import pathlib
 import re
@@ -117,3 +119,26 @@ def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
         if "://" not in target:
             assert (page.parent / target).exists(), target
+
+
+def test_the_tutorial_prints_what_its_commands_print(tmp_path):
+    page = (ROOT / "docs" / "src" / "tutorial.md").read_text(encoding="utf-8")
+    words = " ".join(page.split())
+    drive = next(text for language, text in BLOCK.findall(page) if language == "toml")
+    (tmp_path / "my_drive.toml").write_text(drive, encoding="utf-8")
+    for tension in (150, 100, 60):
+        arguments = ["run", "my_drive.toml", "--set", f"belt.tension={tension}", "--out", str(tension), "--json", "--quiet"]
+        done = subprocess.run([os.environ["HIHNA"], *arguments], cwd=tmp_path, capture_output=True, check=True)
+        steady = json.loads(done.stdout)["steady"]
+        motor, fan = steady["pulley"]["motor"], steady["pulley"]["fan"]
+        slip, contact = (math.degrees(motor[name]) for name in ("slip_angle", "contact_angle"))
+        tight, slack = sorted((span["tension"] for span in steady["span"].values()), reverse=True)
+        hub = max(math.hypot(*pulley["hub_force"]) for pulley in (motor, fan))
+        loss = 100 * fan["speed_loss"]
+        row = f"| {tension} N | {loss:.2f} % | {slip:.1f}° of {contact:.0f}° | {tight:.0f} / {slack:.0f} N | {hub:.0f} N |"
+        assert row in page
+        if tension == 150:
+            assert f"loses {loss:.1f} % of its speed to slip, the tight span carries {tight:.0f} N" in words
+            assert f"the power lost is {steady['power_lost']:.1f} W of {steady['power_in']:.0f} W" in words
+            grip = 100 * max(pulley["slip_angle"] / pulley["contact_angle"] for pulley in (motor, fan))
+            assert f"*Grip used* is {grip:.1f} %" in words

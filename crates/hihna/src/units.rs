@@ -322,10 +322,16 @@ pub fn dimension(name: &str) -> Option<&'static Dimension> {
     DIMENSIONS.iter().find(|dimension| dimension.name == name)
 }
 
+/// What text of a quantity looks like: a number and something behind it that no longer belongs to it. Which units
+/// there are a schema cannot say.
+const TEXT: &str =
+    r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?(\s+\S|[^\s0-9.eE]|[eE][^\s0-9+-])";
+
 fn quantity_schema(name: &str) -> Schema {
     let dimension = dimension(name);
     json_schema!({
         "type": ["number", "string"],
+        "pattern": TEXT,
         QUANTITY: name,
         UNIT: dimension.map_or("", |d| d.unit),
     })
@@ -338,7 +344,7 @@ pub(crate) fn of_the_field(_: &mut SchemaGenerator) -> Schema {
 
 /// Schema of a list of values whose dimension is that of the field in which it stands.
 pub(crate) fn list_of_the_field(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "type": "array", "items": quantity_schema(FIELD) })
+    json_schema!({ "type": "array", "items": quantity_schema(FIELD), "minItems": 1 })
 }
 
 /// Schema of a list of times [s].
@@ -362,12 +368,12 @@ pub(crate) fn tilt(generator: &mut SchemaGenerator) -> Schema {
 
 /// Schema of a list of angular velocities [rad/s].
 pub(crate) fn angular_velocities(generator: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "type": "array", "items": angular_velocity(generator) })
+    json_schema!({ "type": "array", "items": angular_velocity(generator), "minItems": 1 })
 }
 
 /// Schema of a list of torques [N m].
 pub(crate) fn torques(generator: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "type": "array", "items": torque(generator) })
+    json_schema!({ "type": "array", "items": torque(generator), "minItems": 1 })
 }
 
 /// Schema of an acceleration in the plane [m/s²].
