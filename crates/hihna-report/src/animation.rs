@@ -130,7 +130,7 @@ pub fn animation(
         .collect();
     // Every frame has its edges, or none is shown with them.
     let strip =
-        (edges.iter().all(|edges| edges.len() == count)).then(|| Strip::new(drive, sides, &times));
+        (edges.iter().all(|edges| edges.len() == count)).then(|| Strip::new(drive, &sides, &times));
     Some(Animation {
         times,
         points,

@@ -57,7 +57,7 @@ impl Sides {
 
 impl Strip {
     /// The belt of `drive` with these edges at these times.
-    pub fn new(drive: &Drive, sides: Sides, times: &[f64]) -> Self {
+    pub fn new(drive: &Drive, sides: &Sides, times: &[f64]) -> Self {
         let drum = |pulley: &hihna::drive::Pulley| Drum {
             axis: pulley.axis(),
             shape: pulley.shape(),
