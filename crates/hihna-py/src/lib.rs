@@ -3,6 +3,7 @@
 mod beam;
 mod drive;
 mod errors;
+mod plate;
 mod results;
 mod user_laws;
 mod user_motion;
@@ -20,5 +21,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("StructureError", py.get_type::<errors::StructureError>())?;
     module.add_class::<drive::NativeDrive>()?;
     module.add_class::<results::NativeResults>()?;
-    module.add_class::<beam::NativeBeam>()
+    module.add_class::<beam::NativeBeam>()?;
+    module.add_class::<plate::NativePlate>()
 }

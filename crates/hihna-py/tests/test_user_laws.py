@@ -64,7 +64,7 @@ def test_what_a_function_raises_names_the_law(drive):
     with pytest.raises(hihna.RunError, match="friction law of pulley `driven` raised ZeroDivisionError") as caught:
         drive.run(friction={"driven": wrong})
     assert isinstance(caught.value.__cause__, ZeroDivisionError)
-    with pytest.raises(hihna.RunError, match="load of pulley `driven` raised ValueError: it gave nan at"):
+    with pytest.raises(hihna.RunError, match="load of pulley `driven` raised ValueError: it gave NaN at"):
         drive.run(load={"driven": lambda time, speed: float("nan")})
     with pytest.raises(hihna.RunError, match="raised TypeError"):
         drive.run(friction={"driven": lambda slip, normal: "much"})

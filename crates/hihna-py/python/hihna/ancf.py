@@ -1,4 +1,4 @@
-"""Planar structures of absolute nodal coordinate beams: supports, loads, statics, modes, motion.
+"""Structures of absolute nodal coordinates: planar beams with supports, loads, statics, modes and motion; thin plates.
 
 >>> from hihna import ancf
 >>> steel = ancf.Material(youngs_modulus=2.07e11, poisson_ratio=0.3, density=7850.0)
@@ -19,18 +19,24 @@ from dataclasses import dataclass
 import numpy
 
 from ._native import NativeBeam
+from .material import Material
+from .plate import Plate, PlateEquilibrium, PlateModes
+
+__all__ = [
+    "Beam",
+    "Equilibrium",
+    "Film",
+    "Material",
+    "Modes",
+    "Motion",
+    "Plate",
+    "PlateEquilibrium",
+    "PlateModes",
+    "Section",
+]
 
 #: A function of time [s] to a value and its first and second derivative by time.
 Motion = Callable[[float], tuple[float, float, float]]
-
-
-@dataclass(frozen=True)
-class Material:
-    """An isotropic, linear elastic material: Young's modulus [Pa], Poisson's ratio [-], density [kg/m³]."""
-
-    youngs_modulus: float
-    poisson_ratio: float
-    density: float
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,67 @@
+"""Plates from Python: closed forms, and the errors of wrong ones."""
+
+import math
+
+import numpy
+import pytest
+from hihna import StructureError, ancf
+
+STEEL = ancf.Material(youngs_modulus=2e11, poisson_ratio=0.3, density=7800.0)
+THICKNESS = 0.01
+RIGIDITY = STEEL.youngs_modulus * THICKNESS**3 / (12 * (1 - 0.3**2))
+
+
+def square(elements, **more):
+    return ancf.Plate(1.0, 1.0, THICKNESS, (elements, elements), STEEL, **more)
+
+
+def test_a_supported_square_bends_as_navier_says():
+    """0.00406235 p a⁴/D in the middle (Timoshenko & Woinowsky-Krieger, table 8), under a pressure that bends it by 2e-4 of
+    its thickness: membrane forces take a part of the square of that. The element converges with its length squared."""
+    pressure = 10.0
+    exact = 0.00406235 * pressure / RIGIDITY
+    errors = []
+    for elements in (4, 8, 16):
+        bent = square(elements).support().bending_only().pressure(pressure).equilibrium()
+        assert bent.positions.shape == (elements + 1, elements + 1, 3) and bent.iterations >= 1
+        errors.append(abs(bent.positions[elements // 2, elements // 2, 2] / exact - 1))
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.15) and errors[1] / errors[2] == pytest.approx(4.0, rel=0.1)
+
+
+def test_a_strip_under_an_end_moment_is_an_arc():
+    """Without Poisson's ratio curvature M/D: 1 m of it turned by a tenth of a radian ends at the chord of the arc."""
+    soft = ancf.Material(youngs_modulus=2e11, poisson_ratio=0.0, density=7800.0)
+    rigidity = soft.youngs_modulus * THICKNESS**3 / 12
+    strip = ancf.Plate(1.0, 0.1, THICKNESS, (16, 1), soft).clamp("start").end_moment(0.1 * rigidity)
+    tip = strip.equilibrium().positions[-1]
+    # The moment is dead in its slopes, and the element's angle is of second order: a percent at sixteen elements.
+    numpy.testing.assert_allclose(tip[:, 2], (1 - math.cos(0.1)) / 0.1, rtol=0.01)
+
+
+def test_frequencies_of_a_supported_square():
+    """Mode (m, n) has pi² (m² + n²)/a² sqrt(D / rho h)."""
+    modes = square(8).support().bending_only().modes()
+    unit = math.pi**2 * math.sqrt(RIGIDITY / (STEEL.density * THICKNESS))
+    assert modes.frequencies[0] == pytest.approx(2 * unit, rel=0.02)
+    assert modes.frequencies[1:3] == pytest.approx([5 * unit] * 2, rel=0.04)
+    assert modes.shapes.shape[1:] == (9, 9, 3) and len(modes.growths) == len(modes.frequencies)
+    # The middle moves most.
+    assert numpy.unravel_index(numpy.abs(modes.shapes[0, :, :, 2]).argmax(), (9, 9)) == (4, 4)
+
+
+def test_mistakes_are_told():
+    with pytest.raises(StructureError):
+        square(2).pressure(1.0).equilibrium()
+    with pytest.raises(StructureError):
+        square(2).clamp().force((7, 0), (0.0, 0.0, 1.0)).equilibrium()
+    with pytest.raises(StructureError):
+        square(0)
+    with pytest.raises(StructureError):
+        ancf.Plate(1.0, -1.0, 0.01, (2, 2), STEEL)
+    with pytest.raises(ValueError, match="start, end, right and left"):
+        square(2).clamp("top")
+    with pytest.raises(ValueError, match="bending"):
+        square(2, bending="odd")
+    other = square(2).clamp().equilibrium()
+    with pytest.raises(StructureError, match="another plate"):
+        square(3).clamp().modes(other)
