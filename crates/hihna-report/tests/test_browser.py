@@ -208,7 +208,7 @@ def test_a_map_is_drawn(page, maps, name, kind, axes):
     slipping = [chart for chart in charts if "gross slip" in chart["names"]]
     assert slipping and "times what friction carries" in slipping[0]["texts"][0]
     captions = page.locator(".charts figcaption").all_inner_texts()
-    assert captions[0].startswith("Load over the most that friction carries") and all("[" in caption for caption in captions)
+    assert captions[0].startswith("Load over what friction carries") and all("[" in caption for caption in captions)
     assert page.locator("#inputs tbody tr").count() >= axes + 2
     keep(page, f"map-{name}", full_page=True)
     page.click("#theme")

@@ -101,7 +101,7 @@ fn quantities(map: &Map) -> Vec<Quantity> {
         all.insert(
             0,
             Quantity {
-                title: "Load over the most that friction carries".into(),
+                title: "Load over what friction carries".into(),
                 unit: "–",
                 value: Box::new(value),
                 everywhere: true,
