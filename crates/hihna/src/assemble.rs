@@ -109,6 +109,11 @@ pub enum Warning {
         /// Number of elements that would do.
         elements: usize,
     },
+    /// Steady running does not take the rule of integration that the drive names.
+    #[error(
+        "`contact.integration = \"trapezoidal\"` plays no part in steady running: elements are split where contact and friction have corners, with Gauss points on every piece"
+    )]
+    SplitIntegration,
 }
 
 /// How tight the belt is, worked out on its path.

@@ -3,6 +3,8 @@
 mod control;
 mod place;
 mod recorder;
+mod settling;
+mod steady_start;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -14,7 +16,7 @@ use ancf::system::Mechanics;
 use thiserror::Error;
 
 use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, Warning};
-use crate::drive::{BeltElement, Drive, Joint};
+use crate::drive::{BeltElement, Drive, Joint, Start, Until};
 use crate::history::History;
 use crate::layout::Layout;
 use crate::observe::{ProfileRow, PulleyLaw};
@@ -22,6 +24,9 @@ use crate::observe::{ProfileRow, PulleyLaw};
 pub use control::nominal_speed;
 use place::place;
 use recorder::Recorder;
+pub use settling::Settling;
+use settling::Watch;
+pub use steady_start::NoSteadyStart;
 
 /// Correction, in smallest radii, at which the belt is at rest.
 const REST: f64 = 1.0e-10;
@@ -75,9 +80,13 @@ pub struct Outcome {
     pub integrator: &'static str,
     /// Energy and torque balance.
     pub audit: Audit,
+    /// When the run ended [s].
+    pub end_time: f64,
+    /// Of a run until its means settle: whether and when they have.
+    pub settling: Option<Settling>,
 }
 
-/// The equilibrium at rest on the pulleys.
+/// The equilibrium at rest on the pulleys, or the steady running from which the clock started.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartState {
     /// Mean true axial force [N].
@@ -129,6 +138,9 @@ pub enum RunError {
         /// Why.
         cause: StaticsError,
     },
+    /// The run cannot begin in steady running.
+    #[error(transparent)]
+    SteadyStart(#[from] Box<NoSteadyStart>),
     /// The run would never end.
     #[error("the run of {end} s would take {count:.1e} steps of {step:.1e} s")]
     TooManySteps {
@@ -188,6 +200,9 @@ pub fn simulate(
         BeltElement::BeltBeam => planar::<BeltBeam2>(drive, observer),
         BeltElement::CubicBeam => planar::<CubicBeam2>(drive, observer),
         BeltElement::LinearBeam => planar::<LinearBeam2>(drive, observer),
+        BeltElement::Plate if drive.run.start == Start::Steady => {
+            Err(Box::new(NoSteadyStart::Spatial).into())
+        }
         BeltElement::Plate => run(
             drive,
             observer,
@@ -213,18 +228,21 @@ fn planar<E: BeltElementType>(
                 assembly.open_joint(drive)?;
             }
             assembly.release(drive);
+            if drive.run.start == Start::Steady {
+                steady_start::set_running(drive, assembly).map_err(Box::new)?;
+            }
             Ok(())
         },
     )
 }
 
-/// Runs what `assemble` puts together; `release` gives the settled belt its friction and the pulleys their
-/// torques.
+/// Runs what `assemble` puts together; `release` gives the settled belt its friction, the pulleys their
+/// torques, and both the motion that they start with.
 fn run<E: Element, L: PulleyLaw<E>>(
     drive: &Drive,
     observer: &mut dyn FnMut(&Progress) -> Flow,
     assemble: impl FnOnce() -> Result<Assembly<E, L>, AssemblyError>,
-    release: impl FnOnce(&mut Assembly<E, L>) -> Result<(), AssemblyError>,
+    release: impl FnOnce(&mut Assembly<E, L>) -> Result<(), RunError>,
 ) -> Result<Outcome, RunError> {
     let wall = Instant::now();
     let end = drive.run.end_time;
@@ -254,6 +272,8 @@ fn run<E: Element, L: PulleyLaw<E>>(
     );
     let mut steps = 0;
     let mut stopped = None;
+    let mut watch = (drive.run.until == Until::Steady)
+        .then(|| Watch::new(drive, &assembly.mounting, &recorder.history));
     let mut motion = assembly.motion.clone();
     let cpu = cpu_time::ThreadTime::now();
     let statistics = integrate(
@@ -270,7 +290,16 @@ fn run<E: Element, L: PulleyLaw<E>>(
                 steps,
             };
             match observer(&progress) {
-                Flow::Continue => ControlFlow::Continue(pace),
+                Flow::Continue => {
+                    let settled = watch
+                        .as_mut()
+                        .is_some_and(|watch| watch.settled(&recorder.history));
+                    if settled {
+                        recorder.finish(drive, system, window.to);
+                        return ControlFlow::Break(());
+                    }
+                    ControlFlow::Continue(pace)
+                }
                 Flow::Stop => {
                     stopped = Some(window.to.time);
                     ControlFlow::Break(())
@@ -308,6 +337,8 @@ fn run<E: Element, L: PulleyLaw<E>>(
     Ok(Outcome {
         start,
         audit,
+        end_time: recorder.end_time(),
+        settling: watch.map(|watch| watch.settling()),
         history: recorder.history,
         profile: recorder.profile,
         frames: recorder.frames,

@@ -228,6 +228,24 @@ impl Recorder {
         pace
     }
 
+    /// Ends the records at `state`, before the time that `drive` names: the profile of the end is due now.
+    pub fn finish<E: Element, L: PulleyLaw<E>>(
+        &mut self,
+        drive: &Drive,
+        system: &System<E, L>,
+        state: &Motion,
+    ) {
+        if drive.run.profile_times.is_empty() && self.next_profile < self.profile_times.len() {
+            self.observer.survey(system, state);
+            self.profile = self.observer.profile(state.time, &self.element_start);
+        }
+    }
+
+    /// Time of the last accepted state [s].
+    pub fn end_time(&self) -> f64 {
+        self.last_time
+    }
+
     /// Shorter steps while more than half of the tolerated energy is missing and the balance goes on
     /// worsening. What the drive holds at nominal speed counts as turned over, as every work has a start.
     fn pace(&self, residual: f64) -> Pace {

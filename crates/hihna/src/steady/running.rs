@@ -39,12 +39,14 @@ macro_rules! with_belt_element {
     };
 }
 
+pub mod campbell;
 mod contact;
 mod continuation;
 mod equations;
 mod inertia;
 mod line;
 pub mod map;
+mod material;
 mod mesh;
 pub mod modes;
 mod newton;

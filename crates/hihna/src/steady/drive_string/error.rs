@@ -75,6 +75,14 @@ pub enum SteadyError {
         /// Name of the pulley.
         pulley: String,
     },
+    /// Nothing but friction could fix a speed.
+    #[error(
+        "the belt has no friction on pulley \"{pulley}\": nothing fixes the speed of the one by the other"
+    )]
+    NoFriction {
+        /// Name of the pulley.
+        pulley: String,
+    },
     /// The driven pulley ends at rest.
     #[error(
         "the speed of pulley \"{pulley}\" ends with {speed} rad/s: steady running needs one that turns"
@@ -163,6 +171,10 @@ impl SteadyError {
             Self::Remembers { .. } => (
                 FieldPath::default().field("contact").field("friction"),
                 "take law `coulomb`, or let `hihna run` step through time",
+            ),
+            Self::NoFriction { .. } => (
+                FieldPath::default().field("contact").field("friction"),
+                "give a coefficient of friction above zero",
             ),
             Self::Damped { .. } => (
                 FieldPath::default().field("belt").field("damping_time"),

@@ -16,9 +16,9 @@ use super::equations::{Equations, Phase};
 use super::line::{ContactLine, MOST_DOF};
 use super::newton::Newton;
 use super::{RunningBelt, RunningError, mesh};
-use crate::assemble::{Assembly, AssemblyError, BeltElementType, coarse_mesh};
+use crate::assemble::{Assembly, AssemblyError, BeltElementType, Warning, coarse_mesh};
 use crate::contact::{ContactPulley, Penalty};
-use crate::drive::{Drive, Pulley};
+use crate::drive::{Drive, Friction, Integration, Pulley};
 use crate::friction::Law;
 use crate::layout::Layout;
 use crate::load::ExternalTorque;
@@ -57,6 +57,9 @@ impl<E: BeltElementType> RunningBelt<E> {
         assembly
             .warnings
             .extend(coarse_mesh(drive, &assembly.mounting));
+        if drive.contact.integration == Integration::Trapezoidal {
+            assembly.warnings.push(Warning::SplitIntegration);
+        }
         let frictionless = assembly.system.law.pulleys.iter().map(|p| p.friction);
         let frictionless: Vec<_> = frictionless.collect();
         assembly.release(drive);
@@ -104,23 +107,45 @@ impl<E: BeltElementType> RunningBelt<E> {
         self.start.iterations = settled?.iterations;
         self.equations.phase = phase(&self.equations.mesh, &self.assembly.motion.q);
         self.guess_no_slip();
+        let guess = std::mem::take(&mut self.guess);
+        self.observe(&guess);
+        self.guess = guess;
+        self.start.tension = self.observer.mean_tension();
+        self.start.penetration = self.observer.penetration();
         Ok(())
     }
 
-    /// The belt of `drive` in the place of `other`, which runs in the state `z`: that makes the guess.
-    pub(super) fn beside(drive: &Drive, other: &Self, z: &[f64]) -> Result<Self, RunningError> {
+    /// Takes over the speeds and torques of `drive`, which is that of this belt in all other things.
+    pub(super) fn redirect(&mut self, drive: &Drive) -> Result<(), RunningError> {
+        self.equations.prescribed = prescribed_speeds(drive)?;
+        let contacts =
+            (self.assembly.system.law.pulleys.iter_mut()).zip(&mut self.equations.contact.pulleys);
+        for ((known, pulley), stated) in contacts.zip(&drive.pulley) {
+            known.external = final_torque(stated);
+            pulley.external = known.external.clone();
+        }
+        self.guess_no_slip();
+        Ok(())
+    }
+
+    /// The belt of `drive` in the place of `other`, which runs in the state `z`: that makes the guess. Nothing where it has
+    /// other unknowns.
+    pub(super) fn beside(
+        drive: &Drive,
+        other: &Self,
+        z: &[f64],
+    ) -> Result<Option<Self>, RunningError> {
         let starts = mesh::starts(drive, &Layout::of(drive).map_err(AssemblyError::from)?);
         let mut belt = Self::unsettled(drive, &starts)?;
         if belt.guess.len() != z.len() {
-            belt.settle(drive)?;
-            return Ok(belt);
+            return Ok(None);
         }
         let chain = belt.equations.chain();
         belt.assembly.motion.q[..chain].copy_from_slice(&z[..chain]);
         belt.equations.phase = phase(&belt.equations.mesh, &z[..chain]);
         belt.guess_no_slip();
         belt.start = other.start;
-        Ok(belt)
+        Ok(Some(belt))
     }
 
     /// Sets the guess of a belt that does not slip, the weights of the slip and the scales of the speeds.
@@ -151,9 +176,6 @@ impl<E: BeltElementType> RunningBelt<E> {
                 self.equations.slip_weights[p] = sign * arc.radius;
             }
         }
-        self.observe(&z);
-        self.start.tension = self.observer.mean_tension();
-        self.start.penetration = self.observer.penetration();
         self.guess = z;
     }
 }
@@ -178,6 +200,7 @@ fn prescribed_speeds(drive: &Drive) -> Result<Vec<Option<f64>>, SteadyError> {
         let pulley = pulley.name.clone();
         return Err(SteadyError::Remembers { pulley });
     }
+    friction_holds(drive)?;
     let speeds = (drive.pulley.iter())
         .map(prescribed_speed)
         .collect::<Result<Vec<_>, _>>()?;
@@ -185,6 +208,30 @@ fn prescribed_speeds(drive: &Drive) -> Result<Vec<Option<f64>>, SteadyError> {
         return Err(SteadyError::NoSpeed);
     }
     Ok(speeds)
+}
+
+/// Without friction on a driver nothing fixes the speed of the belt, without it on another pulley nothing that pulley's.
+fn friction_holds(drive: &Drive) -> Result<(), SteadyError> {
+    let slips = |pulley: &&Pulley| match drive.friction_on(pulley) {
+        Friction::Stribeck {
+            static_coefficient,
+            sliding_coefficient,
+            ..
+        } => *static_coefficient == 0.0 && *sliding_coefficient == 0.0,
+        friction => friction.coefficient() == 0.0,
+    };
+    let mut drivers = drive.pulley.iter().filter(|p| p.is_driver()).peekable();
+    let idle = drivers
+        .peek()
+        .copied()
+        .filter(|_| drivers.clone().all(|p| slips(&p)));
+    let free = (drive.pulley.iter()).find(|p| !p.is_driver() && slips(p));
+    match idle.or(free) {
+        Some(pulley) => Err(SteadyError::NoFriction {
+            pulley: pulley.name.clone(),
+        }),
+        None => Ok(()),
+    }
 }
 
 fn prescribed_speed(pulley: &Pulley) -> Result<Option<f64>, SteadyError> {
