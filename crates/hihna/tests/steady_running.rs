@@ -347,10 +347,6 @@ fn refusals() {
         (&["pulley.driver.speed=0"][..], "ends with 0 rad/s"),
         (&["belt.damping_time=1e-3"], "`damping_time` of 0.001 s"),
         (
-            &["contact.friction={law=\"elastic-plastic\", coefficient=0.5, stiffness=1e8}"],
-            "remembers displacements",
-        ),
-        (
             &["pulley.driver.irregularity=[{order=2, amplitude=0.01}]"],
             "needs an even speed",
         ),

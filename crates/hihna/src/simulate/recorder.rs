@@ -10,7 +10,7 @@ use ancf::system::{Mechanics, System};
 use super::control::nominal_speed;
 use super::{Audit, StartState};
 use crate::assemble::{Assembly, Mounting};
-use crate::drive::Drive;
+use crate::drive::{Drive, Start};
 use crate::history::History;
 use crate::layout::Layout;
 use crate::observe::{Observer, Powers, ProfileRow, PulleyLaw, PulleyState, SpanState, Stored};
@@ -290,7 +290,12 @@ impl Recorder {
 
     pub fn audit(&self, drive: &Drive) -> Audit {
         // A drive at rest turns nothing over: compare with what the belt has stored.
-        let scale = self.work.turnover.max(1.0e-6 * self.initial.total());
+        // One that begins in motion holds what a run-up would have turned over.
+        let begun = match drive.run.start {
+            Start::Steady => self.initial.kinetic,
+            Start::Rest => 0.0,
+        };
+        let scale = (self.work.turnover + begun).max(1.0e-6 * self.initial.total());
         let torque_residual = self
             .momenta
             .iter()

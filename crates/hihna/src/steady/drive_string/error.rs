@@ -67,14 +67,6 @@ pub enum SteadyError {
         /// Name of the pulley.
         pulley: String,
     },
-    /// Friction remembers.
-    #[error(
-        "friction of law `elastic-plastic` on pulley \"{pulley}\" remembers displacements, which steady running of the finite elements does not take into account"
-    )]
-    Remembers {
-        /// Name of the pulley.
-        pulley: String,
-    },
     /// Nothing but friction could fix a speed.
     #[error(
         "the belt has no friction on pulley \"{pulley}\": nothing fixes the speed of the one by the other"
@@ -167,10 +159,6 @@ impl SteadyError {
             Self::Displaced { pulley } => (
                 of_pulley(pulley).field("displacement"),
                 "give the `center` where it ends",
-            ),
-            Self::Remembers { .. } => (
-                FieldPath::default().field("contact").field("friction"),
-                "take law `coulomb`, or let `hihna run` step through time",
             ),
             Self::NoFriction { .. } => (
                 FieldPath::default().field("contact").field("friction"),

@@ -42,6 +42,8 @@ pub(super) enum Way {
     Reached(Vec<f64>),
     /// More slip raises the load no further.
     Exhausted(Capacity),
+    /// At this load factor the solutions were lost while it was still rising: nothing is known of those beyond.
+    Lost(f64),
 }
 
 impl<E: BeltElementType> RunningBelt<E> {
@@ -138,6 +140,7 @@ impl<E: BeltElementType> RunningBelt<E> {
         let mut step = FIRST_SLIP * travel;
         let mut best = z.clone();
         let mut flat = 0;
+        let mut lost = false;
         let mut trial = z.clone();
         for _ in 0..MAX_STAGES {
             trial.copy_from_slice(&z);
@@ -148,6 +151,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             if found.is_err() {
                 step *= 0.25;
                 if step < SMALLEST_SLIP * travel {
+                    lost = true;
                     break;
                 }
                 continue;
@@ -178,6 +182,11 @@ impl<E: BeltElementType> RunningBelt<E> {
                 break;
             }
             step *= 2.0;
+        }
+        // Without memory solutions are lost where the last point of an arc begins to slide, with the load all but exhausted. Bristles
+        // let go point by point long before.
+        if lost && self.equations.contact.bristles.is_some() {
+            return Way::Lost(best[load]);
         }
         Way::Exhausted(self.capacity_at(&best))
     }

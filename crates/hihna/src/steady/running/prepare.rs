@@ -11,6 +11,7 @@ use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 use ancf::system::Mechanics;
 
+use super::bristles::Bristles;
 use super::contact::SteadyContact;
 use super::equations::{Equations, Phase};
 use super::line::{ContactLine, MOST_DOF};
@@ -66,10 +67,10 @@ impl<E: BeltElementType> RunningBelt<E> {
         for (contact, pulley) in assembly.system.law.pulleys.iter_mut().zip(&drive.pulley) {
             contact.external = final_torque(pulley);
         }
-        let laws = (assembly.system.law.pulleys.iter())
+        let laws: Vec<Law> = (assembly.system.law.pulleys.iter())
             .map(|p| p.friction)
             .collect();
-        let equations = equations(drive, &assembly, prescribed);
+        let equations = equations(drive, &assembly, prescribed, &laws);
         assembly.system.law.set_friction(frictionless);
         let newton = Newton::new(equations.structure());
         let names: Vec<String> = drive.pulley.iter().map(|p| p.name.clone()).collect();
@@ -152,7 +153,7 @@ impl<E: BeltElementType> RunningBelt<E> {
     fn guess_no_slip(&mut self) {
         let (chain, load) = (self.equations.chain(), self.equations.load());
         let circulation = self.equations.circulation();
-        let mut z = vec![0.0; load + 1];
+        let mut z = vec![0.0; self.guess.len().max(load + 1)];
         z[..chain].copy_from_slice(&self.assembly.motion.q[..chain]);
         let arcs = &self.assembly.layout.arcs;
         let (driver, speed) = (self.equations.prescribed.iter().enumerate())
@@ -176,7 +177,26 @@ impl<E: BeltElementType> RunningBelt<E> {
                 self.equations.slip_weights[p] = sign * arc.radius;
             }
         }
+        self.guess_phases(&mut z);
         self.guess = z;
+    }
+}
+
+impl<E: BeltElementType> RunningBelt<E> {
+    /// Sets the phases of the bristles in `z` to what they are at its other unknowns.
+    fn guess_phases(&mut self, z: &mut [f64]) {
+        let load = self.equations.load();
+        let equations = &mut self.equations;
+        let motion = equations.motion(z);
+        equations.contact.transport(&equations.mesh, motion);
+        let Some(bristles) = &equations.contact.bristles else {
+            return;
+        };
+        let radii = self.assembly.layout.arcs.iter().map(|arc| arc.radius);
+        for (p, (arc, radius)) in bristles.arcs.iter().zip(radii).enumerate() {
+            z[load + 1 + p] = arc.main_phase();
+            equations.scales[load + 1 + p] = radius;
+        }
     }
 }
 
@@ -193,12 +213,6 @@ fn prescribed_speeds(drive: &Drive) -> Result<Vec<Option<f64>>, SteadyError> {
         return Err(SteadyError::Damped {
             time: drive.belt.damping_time,
         });
-    }
-    let remembers =
-        |pulley: &&Pulley| Law::new(drive.friction_on(pulley), pulley.grip()).has_memory();
-    if let Some(pulley) = drive.pulley.iter().find(remembers) {
-        let pulley = pulley.name.clone();
-        return Err(SteadyError::Remembers { pulley });
     }
     friction_holds(drive)?;
     let speeds = (drive.pulley.iter())
@@ -266,6 +280,7 @@ fn equations<E: BeltElementType>(
     drive: &Drive,
     assembly: &Assembly<E>,
     prescribed: Vec<Option<f64>>,
+    laws: &[Law],
 ) -> Equations<E> {
     let mesh = assembly.system.mesh().clone();
     let points = NonZeroUsize::new(drive.contact.points).unwrap_or(NonZeroUsize::MIN);
@@ -275,10 +290,22 @@ fn equations<E: BeltElementType>(
         clamp: drive.contact.clamp_normal_force,
     };
     let pulleys: Vec<ContactPulley> = assembly.system.law.pulleys.clone();
-    let contact = SteadyContact::new(pulleys, penalty, Rule::gauss(points), E::DOF);
+    let mut contact = SteadyContact::new(pulleys, penalty, Rule::gauss(points), E::DOF);
+    if laws.iter().any(Law::has_memory) {
+        contact.bristles = Some(Bristles::new(
+            &mesh,
+            &assembly.layout,
+            drive.belt.first_node,
+        ));
+    }
     let phase = phase(&mesh, &assembly.motion.q);
     let constant = gravity(drive, assembly, mesh.dof());
-    let scales = scales(drive, &mesh, prescribed.len() + 2);
+    let border = prescribed.len() + 2;
+    let scales = scales(
+        drive,
+        &mesh,
+        border + contact.bristles.as_ref().map_or(0, |b| b.arcs.len()),
+    );
     Equations::new(mesh, contact, constant, prescribed, phase, scales)
 }
 
