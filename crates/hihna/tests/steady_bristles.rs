@@ -89,8 +89,8 @@ fn rate_independent_and_mirrored() {
     }
 }
 
-/// With little friction the belt slides before it leaves a pulley, sticks before, and more so on stiffer bristles less far; stiff bristles
-/// slip less. The powers balance, and torques are what they are said to be.
+/// With little friction the belt sticks where it runs on and slides before it runs off, sooner on stiffer bristles, which slip less. The
+/// powers balance, and torques are what they are said to be.
 #[test]
 fn sticks_and_slides() {
     let found: Vec<_> = [1.0e6, 1.0e7]
@@ -98,7 +98,9 @@ fn sticks_and_slides() {
         .into();
     for running in &found {
         assert!(running.power_residual.abs() < 1.0e-3);
-        assert!((running.pulleys[1].torque - 1.0).abs() < 1.0e-9);
+        // Corrections of 1e-11 m are left, 2e-6 N m on 255 mm of the stiffer bristles.
+        let torque = running.pulleys[1].torque;
+        assert!((torque - 1.0).abs() < 1.0e-5, "{torque}");
         for pulley in &running.pulleys {
             let part = pulley.slip_angle / pulley.contact_angle;
             assert!(part > 0.05 && part < 0.5, "{part}");
