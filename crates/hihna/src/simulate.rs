@@ -170,6 +170,25 @@ pub enum RunError {
 }
 
 impl RunError {
+    fn step(
+        drive: &Drive,
+        layout: &Layout,
+        q: &[f64],
+        belt: (usize, usize),
+        cause: IntegrationError,
+    ) -> Self {
+        let IntegrationError::StepFailed {
+            time,
+            cause: failure,
+            ..
+        } = &cause;
+        Self::Step {
+            time: *time,
+            place: place(drive, layout, q, failure.coordinate, belt),
+            cause,
+        }
+    }
+
     fn start(
         drive: &Drive,
         layout: &Layout,
@@ -308,18 +327,8 @@ fn run<E: Element, L: PulleyLaw<E>>(
         },
     )
     .map_err(|cause| {
-        let IntegrationError::StepFailed {
-            time,
-            cause: failure,
-            ..
-        } = &cause;
-        let (layout, coordinate) = (&assembly.layout, failure.coordinate);
         let belt = (assembly.system.structure().chain(), E::NODE_DOF);
-        RunError::Step {
-            time: *time,
-            place: place(drive, layout, &motion.q, coordinate, belt),
-            cause,
-        }
+        RunError::step(drive, &assembly.layout, &motion.q, belt, cause)
     })?;
     if let Some(time) = stopped {
         return Err(RunError::Stopped { time });

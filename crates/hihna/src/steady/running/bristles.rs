@@ -181,12 +181,12 @@ impl BristleArc {
     }
 }
 
-/// How far a pulley has turned since a point's bristle stood unbent, by the unknowns of the border.
+/// Derivatives of the angle by which a pulley has turned since a point's bristle stood unbent, by the unknowns of the border.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Turn {
-    pub by_speed: f64,
-    pub by_circulation: f64,
-    pub by_phase: f64,
+    pub speed: f64,
+    pub circulation: f64,
+    pub phase: f64,
 }
 
 /// The bristles on all pulleys.
@@ -252,15 +252,15 @@ impl Bristles {
     pub fn turn(&self, p: usize, passage: &Passage<'_>, element: usize, xi: f64) -> Turn {
         let (arc, c) = (&self.arcs[p], passage.circulation);
         let place = self.place(p, passage, element, xi);
-        let (since, by_phase) = match arc.anchor(place) {
+        let (since, phase) = match arc.anchor(place) {
             Some(i) if i == arc.main => (place, 1.0),
             Some(i) => (place - arc.anchors[i].place, 0.0),
             None => return Turn::default(),
         };
         Turn {
-            by_speed: since / c,
-            by_circulation: -arc.ratio * since / c,
-            by_phase,
+            speed: since / c,
+            circulation: -arc.ratio * since / c,
+            phase,
         }
     }
 

@@ -415,14 +415,14 @@ fn add_point<E: LineElement>(
     // By the pulley's turn since the bristle stood unbent; zero for laws without memory.
     let turned = by_r.force_by_pulley;
     let by_circulation = [
-        by_v.force[0] * slope[0] + by_v.force[1] * slope[1] + turned[0] * turn.by_circulation,
-        by_v.force[2] * slope[0] + by_v.force[3] * slope[1] + turned[1] * turn.by_circulation,
+        by_v.force[0] * slope[0] + by_v.force[1] * slope[1] + turned[0] * turn.circulation,
+        by_v.force[2] * slope[0] + by_v.force[3] * slope[1] + turned[1] * turn.circulation,
     ];
     border.by_circulation += weight * (by_v.torque[0] * slope[0] + by_v.torque[1] * slope[1]);
-    border.by_circulation += weight * by_r.torque_by_pulley * turn.by_circulation;
+    border.by_circulation += weight * by_r.torque_by_pulley * turn.circulation;
     border.by_speed += weight * by_v.torque_by_pulley;
-    border.by_speed += weight * by_r.torque_by_pulley * turn.by_speed;
-    border.torque_by_phase += weight * by_r.torque_by_pulley * turn.by_phase;
+    border.by_speed += weight * by_r.torque_by_pulley * turn.speed;
+    border.torque_by_phase += weight * by_r.torque_by_pulley * turn.phase;
     for a in 0..vectors {
         let wn = weight * weights.value[a];
         if wn == 0.0 {
@@ -436,8 +436,8 @@ fn add_point<E: LineElement>(
             }
             local.by_circulation[2 * a + axis] += wn * by_circulation[axis];
             border.column[2 * a + axis] +=
-                wn * (by_v.force_by_pulley[axis] + turned[axis] * turn.by_speed);
-            border.by_phase[2 * a + axis] += wn * turned[axis] * turn.by_phase;
+                wn * (by_v.force_by_pulley[axis] + turned[axis] * turn.speed);
+            border.by_phase[2 * a + axis] += wn * turned[axis] * turn.phase;
         }
     }
 }

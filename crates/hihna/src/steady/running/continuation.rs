@@ -142,8 +142,15 @@ impl<E: BeltElementType> RunningBelt<E> {
         let mut flat = 0;
         let mut lost = false;
         let mut trial = z.clone();
+        // The solution before and how much slip lies between: the next begins on the line through both.
+        let mut before: Option<(Vec<f64>, f64)> = None;
         for _ in 0..MAX_STAGES {
             trial.copy_from_slice(&z);
+            if let Some((before, between)) = &before {
+                for ((trial, now), before) in trial.iter_mut().zip(&z).zip(before) {
+                    *trial += step / between * (now - before);
+                }
+            }
             self.equations.control = Control::Slip(slip + step);
             let found = self
                 .newton
@@ -173,6 +180,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             } else {
                 0
             };
+            before = Some((z.clone(), step));
             z.copy_from_slice(&trial);
             if z[load] > best[load] {
                 best.copy_from_slice(&z);

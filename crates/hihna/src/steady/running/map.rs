@@ -223,7 +223,7 @@ fn same_but(now: &Drive, before: &Drive, restore: impl Fn(&mut Pulley, &Pulley))
 /// The capacity found of the drive `before` where `now` differs from it by its torques alone, all in proportion.
 fn scaled(before: &Drive, now: &Drive, capacity: &Capacity) -> Option<Capacity> {
     let same = same_but(now, before, |now, before| {
-        now.torque.clone_from(&before.torque)
+        now.torque.clone_from(&before.torque);
     });
     if !same || before.pulley.iter().any(|p| p.load.is_some()) {
         return None;
