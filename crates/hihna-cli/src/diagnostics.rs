@@ -160,6 +160,9 @@ impl Failure {
             Self::Steady(_) => {
                 "check stiffness, tension and torques of the drive for slips of the decimal point"
             }
+            Self::Running(RunningError::Lost { .. }) => {
+                "try more `belt.elements`, lower torques or gentler bristles"
+            }
             Self::Running(RunningError::NotFound { .. }) => {
                 "run slower or tighten the belt if it lifts off its pulleys; otherwise try more `belt.elements` or a gentler friction law"
             }

@@ -59,7 +59,7 @@ fn main() -> ExitCode {
     };
     let result = match command {
         Command::Run(arguments) => run::run(&arguments, loudness),
-        Command::Steady(arguments) => steady::steady(&arguments),
+        Command::Steady(arguments) => steady::steady(&arguments, loudness),
         Command::Validate(arguments) => validate::validate(&arguments, loudness),
         Command::Check(arguments) => check::check(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

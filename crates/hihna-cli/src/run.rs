@@ -4,10 +4,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use hihna::drive::Until;
 use hihna::frames;
+use hihna::input::InputErrors;
 use hihna::record;
-use hihna::simulate::{Flow, simulate};
+use hihna::simulate::{Flow, RunError, simulate};
 use hihna::summary::Summary;
 use serde::Serialize;
 
@@ -40,9 +42,23 @@ pub struct Arguments {
     #[arg(long)]
     vtk: bool,
 
+    /// End the run when the means of speeds and tensions have settled, at `run.end_time` at the latest
+    /// [default: `run.until` of the drive file]
+    #[arg(long, value_name = "STATE", hide_possible_values = true)]
+    until: Option<UntilName>,
+
     /// Print one JSON object, as in `summary.json`, to standard output
     #[arg(long)]
     pub json: bool,
+}
+
+/// Ends of a run by the names that users give.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum UntilName {
+    /// At `run.end_time`.
+    End,
+    /// When the means have settled.
+    Steady,
 }
 
 /// What `--json` prints: the summary and where the files are.
@@ -55,7 +71,14 @@ struct Answer<'a> {
 
 /// Runs, records and tells.
 pub fn run(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
-    let mut drive = arguments.source.load()?;
+    let file = arguments.source.open()?;
+    let mut drive = file.drive.clone();
+    if let Some(until) = arguments.until {
+        drive.run.until = match until {
+            UntilName::End => Until::End,
+            UntilName::Steady => Until::Steady,
+        };
+    }
     if arguments.report || arguments.vtk {
         frames::choose(&mut drive);
     }
@@ -78,7 +101,12 @@ pub fn run(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
         }
     });
     bar.finish();
-    let outcome = outcome?;
+    let outcome = outcome.map_err(|error| match error {
+        RunError::SteadyStart(refused) => {
+            Failure::Input(InputErrors::from(file.locate(refused.problem(&drive))))
+        }
+        error => Failure::Run(error),
+    })?;
 
     let options = record::Options {
         overwrite: arguments.force,

@@ -12,8 +12,10 @@ use serde::Serialize;
 
 use crate::diagnostics::{Failure, print_warning};
 use crate::drive_source::DriveSource;
+use crate::loudness::Loudness;
 use crate::standard_output;
 
+mod campbell;
 mod elements;
 mod map;
 mod modes;
@@ -50,8 +52,9 @@ pub struct Arguments {
     #[arg(long, value_name = "KEY", value_delimiter = ',')]
     sensitivity: Vec<String>,
 
-    /// With `--model fe`: print the first K modes of spans and drive about the running state
-    #[arg(long, value_name = "K", default_value_t = 0, hide_default_value = true, value_parser = clap::value_parser!(u16).range(..=100), conflicts_with = "map")]
+    /// With `--model fe`: print the first K modes of spans and drive about the running state; with one `--map`,
+    /// follow them over its values and print a Campbell diagram as CSV
+    #[arg(long, value_name = "K", default_value_t = 0, hide_default_value = true, value_parser = clap::value_parser!(u16).range(..=100))]
     modes: u16,
 
     /// With `--model fe`: solve the drive at every combination of values of two or more fields, such as
@@ -97,12 +100,12 @@ enum ClosureName {
 }
 
 /// Solves, records and tells.
-pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
+pub fn steady(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
     let Some(model) = arguments.model.string() else {
-        return if arguments.map.is_empty() {
-            elements::steady(arguments)
-        } else {
-            map::steady(arguments)
+        return match (arguments.map.is_empty(), arguments.modes) {
+            (true, _) => elements::steady(arguments, loudness),
+            (false, 0) => map::steady(arguments, loudness),
+            (false, _) => campbell::steady(arguments, loudness),
         };
     };
     let closure = match arguments.closure {
@@ -148,7 +151,7 @@ pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
         .map(|place| place.display().to_string());
     if arguments.json {
         standard_output::print_json(&summary)?;
-    } else {
+    } else if !loudness.quiet {
         standard_output::print(&summary.in_words(drive))?;
     }
     for warning in &summary.warnings {

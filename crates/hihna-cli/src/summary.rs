@@ -35,12 +35,21 @@ pub fn in_words(summary: &Summary, folder: &Path) -> String {
     );
     let _ = writeln!(
         text,
-        "At rest: tension {}, {} on rigid pulleys; the belt sinks {} into the pulleys\n",
+        "At the start: tension {}, {} on rigid pulleys; the belt sinks {} into the pulleys\n",
         with_prefix(summary.start.tension, "N"),
         with_prefix(summary.start.path_tension, "N"),
         with_prefix(summary.start.penetration, "m"),
     );
-    let _ = writeln!(text, "Means over the last tenth of the run:\n");
+    match &summary.settling {
+        Some(settling) if settling.reached => {
+            let _ = writeln!(
+                text,
+                "Settled; means over the last two windows of {}:\n",
+                with_prefix(settling.window, "s")
+            );
+        }
+        _ => text.push_str("Means over the last tenth of the run:\n\n"),
+    }
     let _ = writeln!(text, "{}\n", pulleys(&summary.steady).trim_fmt());
     let _ = writeln!(
         text,

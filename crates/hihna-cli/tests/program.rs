@@ -408,3 +408,44 @@ fn ctrl_c_stops_cleanly() {
     assert!(message.contains("stopped at t ="), "{message}");
     assert!(names(folder.path()).is_empty());
 }
+
+/// `--until steady` ends a run before its time, and the drive written says so; what no run can start from is an error at its line.
+#[test]
+fn runs_from_and_to_steady_running() {
+    let folder = TempDir::new().unwrap();
+    let running = [
+        "--set",
+        "pulley.driver.speed=12",
+        "--set",
+        "run.start=steady",
+    ];
+    let short = [
+        "run",
+        "--json",
+        "--out",
+        "here",
+        "--until",
+        "steady",
+        "--set",
+        "belt.elements=20",
+    ];
+    let output = hihna(&folder, &[&short[..], &running].concat());
+    assert!(output.status.success(), "{output:?}");
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(found["settling"]["reached"], true, "{found}");
+    let end = found["end"]["time"].as_f64().unwrap();
+    assert!(end < 1.5, "{end}");
+    let drive: Drive = fs::read_to_string(folder.path().join("here/drive.toml"))
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert_eq!(drive.run.until, hihna::drive::Until::Steady);
+
+    let output = hihna(
+        &folder,
+        &["run", "--out", "there", "--set", "run.start=steady"],
+    );
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    let told = text(&output.stderr);
+    assert!(told.contains("is at rest at time zero"), "{told}");
+}

@@ -570,8 +570,16 @@ fn maps_sensitivities_and_modes_of_finite_elements() {
     assert_eq!(answers[4..], ["gross-slip"; 2]);
     assert_eq!(
         names(&folder.path().join("map")),
-        ["drive.toml", "map.csv", "map.parquet"]
+        ["drive.toml", "map.csv", "map.parquet", "summary.json"]
     );
+    let summary = fs::read_to_string(folder.path().join("map/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let axes = &summary["map"]["axes"];
+    assert_eq!(axes[0]["key"], "pulley.driven.torque");
+    assert_eq!(axes[0]["unit"], "N m");
+    assert_eq!(axes[1]["values"], serde_json::json!([6.0, 12.0]));
+    assert_eq!(summary["map"]["answers"]["gross-slip"], 2);
+    assert_eq!(summary["columns"], found["columns"]);
     let csv = fs::read_to_string(folder.path().join("map/map.csv")).unwrap();
     let mut lines = csv.lines();
     let header: Vec<_> = lines.next().unwrap().split(',').collect();
@@ -608,4 +616,48 @@ fn maps_sensitivities_and_modes_of_finite_elements() {
         assert!(message.contains("help"), "{wrong:?}: {message}");
     }
     told(folder.path(), &["--modes", "3"], 2);
+}
+
+/// A Campbell diagram: one row a speed, the modes in the order of the first; `--quiet` keeps words back and data not.
+#[test]
+fn campbell_diagrams_and_quiet_answers() {
+    let folder = TempDir::new().unwrap();
+    let fe = ["--model", "fe", "--set", "belt.elements=30"];
+    let asked = ["--modes", "2", "--map", "pulley.driver.speed=12:24:3"];
+    let (csv, _) = told(folder.path(), &[&fe[..], &asked].concat(), 0);
+    let rows: Vec<Vec<_>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(
+        rows[0][..3],
+        ["answer", "pulley.driver.speed", "mode_1.frequency"]
+    );
+    assert_eq!((rows.len(), rows[0].len()), (4, 12));
+    for (row, speed) in rows[1..].iter().zip(["12", "18", "24"]) {
+        assert_eq!(row[..2], ["running", speed]);
+        let first: f64 = row[2].parse().unwrap();
+        assert!(first > 1.0 && first < 100.0, "{first} Hz");
+    }
+    let quiet = [&fe[..], &asked, &["--quiet", "--out", "here"]].concat();
+    assert_eq!(told(folder.path(), &quiet, 0).0, "");
+    assert_eq!(
+        names(&folder.path().join("here")),
+        ["campbell.csv", "drive.toml", "summary.json"]
+    );
+    assert_eq!(
+        told(folder.path(), &[&fe[..], &["--quiet"]].concat(), 0).0,
+        ""
+    );
+    assert_eq!(told(folder.path(), &["--quiet"], 0).0, "");
+
+    let two = ["--map", "belt.width=0.01:0.02:2"];
+    let (_, message) = told(folder.path(), &[&fe[..], &asked, &two].concat(), 2);
+    assert!(message.contains("help"), "{message}");
+    let frictionless = ["--set", "contact.friction.coefficient=0"];
+    let (_, message) = told(folder.path(), &[&fe[..], &frictionless].concat(), 2);
+    assert!(message.contains("no friction on pulley"), "{message}");
+    let trapezoidal = ["--set", "contact.integration=trapezoidal"];
+    let (_, message) = told(folder.path(), &[&fe[..], &trapezoidal].concat(), 0);
+    assert!(
+        message.contains("plays no part in steady running"),
+        "{message}"
+    );
 }

@@ -120,6 +120,11 @@ pub enum Warning {
         /// The pulley.
         pulley: String,
     },
+    /// Steady running does not take the rule of integration that the drive names.
+    #[error(
+        "`contact.integration = \"trapezoidal\"` plays no part in steady running: elements are split where contact and friction have corners, with Gauss points on every piece"
+    )]
+    SplitIntegration,
 }
 
 /// How tight the belt is, worked out on its path.

@@ -202,7 +202,8 @@ pub struct Contact {
     #[serde(default = "default_points", serialize_with = "count")]
     #[schemars(extend("minimum" = 1, "maximum" = 64))]
     pub points: usize,
-    /// The rule that these points belong to.
+    /// The rule that these points belong to; steady running of the finite elements takes Gauss points on pieces between the
+    /// corners of the contact law whatever it is.
     #[serde(default, skip_serializing_if = "is_default")]
     pub integration: Integration,
     /// The directions in which friction acts on the surface of a belt in space.
@@ -497,6 +498,8 @@ pub struct Run {
     pub integrator: Integrator,
     /// State at time zero.
     pub start: Start,
+    /// When the run ends.
+    pub until: Until,
     /// Times at which the belt's profile is recorded [s]; empty: the end.
     #[schemars(schema_with = "units::times")]
     pub profile_times: Vec<f64>,
@@ -553,6 +556,19 @@ pub enum Start {
     /// Equilibrium at rest on the pulleys, without friction.
     #[default]
     Rest,
+    /// Steady running with the values that all profiles have at time zero.
+    Steady,
+}
+
+/// When a run ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Until {
+    /// At `end_time`.
+    #[default]
+    End,
+    /// When the means of speeds and tensions have settled, at `end_time` at the latest.
+    Steady,
 }
 
 impl Default for Run {
@@ -564,6 +580,7 @@ impl Default for Run {
             step: Step::Named(AutoStep::Auto),
             integrator: Integrator::Auto,
             start: Start::Rest,
+            until: Until::End,
             profile_times: Vec::new(),
             profile_line: MIDDLE,
             frame_interval: None,

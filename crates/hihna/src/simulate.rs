@@ -3,6 +3,8 @@
 mod control;
 mod place;
 mod recorder;
+mod settling;
+mod steady_start;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -14,7 +16,7 @@ use ancf::system::Mechanics;
 use thiserror::Error;
 
 use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, Warning};
-use crate::drive::{BeltElement, Drive, Joint};
+use crate::drive::{BeltElement, Drive, Joint, Start, Until};
 use crate::history::History;
 use crate::layout::Layout;
 use crate::observe::{EdgeRow, ProfileRow, PulleyLaw};
@@ -23,6 +25,9 @@ use crate::user_laws::{UserLawError, UserLaws};
 pub use control::nominal_speed;
 use place::place;
 use recorder::Recorder;
+pub use settling::Settling;
+use settling::Watch;
+pub use steady_start::NoSteadyStart;
 
 /// Correction, in smallest radii, at which the belt is at rest.
 const REST: f64 = 1.0e-10;
@@ -78,9 +83,13 @@ pub struct Outcome {
     pub integrator: &'static str,
     /// Energy and torque balance.
     pub audit: Audit,
+    /// When the run ended [s].
+    pub end_time: f64,
+    /// Of a run until its means settle: whether and when they have.
+    pub settling: Option<Settling>,
 }
 
-/// The equilibrium at rest on the pulleys.
+/// The equilibrium at rest on the pulleys, or the steady running from which the clock started.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartState {
     /// Mean true axial force [N].
@@ -135,6 +144,9 @@ pub enum RunError {
         /// Why.
         cause: StaticsError,
     },
+    /// The run cannot begin in steady running.
+    #[error(transparent)]
+    SteadyStart(#[from] Box<NoSteadyStart>),
     /// The run would never end.
     #[error("the run of {end} s would take {count:.1e} steps of {step:.1e} s")]
     TooManySteps {
@@ -164,6 +176,25 @@ pub enum RunError {
 }
 
 impl RunError {
+    fn step(
+        drive: &Drive,
+        layout: &Layout,
+        q: &[f64],
+        belt: (usize, usize),
+        cause: IntegrationError,
+    ) -> Self {
+        let IntegrationError::StepFailed {
+            time,
+            cause: failure,
+            ..
+        } = &cause;
+        Self::Step {
+            time: *time,
+            place: place(drive, layout, q, failure.coordinate, belt),
+            cause,
+        }
+    }
+
     fn start(
         drive: &Drive,
         layout: &Layout,
@@ -204,6 +235,9 @@ pub fn simulate_with(
         BeltElement::BeltBeam => planar::<BeltBeam2>(drive, laws, observer),
         BeltElement::CubicBeam => planar::<CubicBeam2>(drive, laws, observer),
         BeltElement::LinearBeam => planar::<LinearBeam2>(drive, laws, observer),
+        BeltElement::Plate if drive.run.start == Start::Steady => {
+            Err(Box::new(NoSteadyStart::Spatial).into())
+        }
         BeltElement::Plate => run(
             drive,
             laws,
@@ -236,19 +270,22 @@ fn planar<E: BeltElementType>(
             assembly.release(drive);
             let pulleys = assembly.system.law.pulleys.iter_mut();
             laws.put_on(drive, pulleys.map(|p| (&mut p.friction, &mut p.external)));
+            if drive.run.start == Start::Steady {
+                steady_start::set_running(drive, assembly).map_err(Box::new)?;
+            }
             Ok(())
         },
     )
 }
 
-/// Runs what `assemble` puts together; `release` gives the settled belt its friction and the pulleys their
-/// torques.
+/// Runs what `assemble` puts together; `release` gives the settled belt its friction, the pulleys their
+/// torques, and both the motion that they start with.
 fn run<E: Element, L: PulleyLaw<E>>(
     drive: &Drive,
     laws: &UserLaws,
     observer: &mut dyn FnMut(&Progress) -> Flow,
     assemble: impl FnOnce() -> Result<Assembly<E, L>, AssemblyError>,
-    release: impl FnOnce(&mut Assembly<E, L>) -> Result<(), AssemblyError>,
+    release: impl FnOnce(&mut Assembly<E, L>) -> Result<(), RunError>,
 ) -> Result<Outcome, RunError> {
     let wall = Instant::now();
     let end = drive.run.end_time;
@@ -279,6 +316,8 @@ fn run<E: Element, L: PulleyLaw<E>>(
     );
     let mut steps = 0;
     let mut stopped = None;
+    let mut watch = (drive.run.until == Until::Steady)
+        .then(|| Watch::new(drive, &assembly.mounting, &recorder.history));
     let mut motion = assembly.motion.clone();
     let cpu = cpu_time::ThreadTime::now();
     let statistics = integrate(
@@ -295,7 +334,16 @@ fn run<E: Element, L: PulleyLaw<E>>(
                 steps,
             };
             match observer(&progress) {
-                Flow::Continue => ControlFlow::Continue(pace),
+                Flow::Continue => {
+                    let settled = watch
+                        .as_mut()
+                        .is_some_and(|watch| watch.settled(&recorder.history));
+                    if settled {
+                        recorder.finish(drive, system, window.to);
+                        return ControlFlow::Break(());
+                    }
+                    ControlFlow::Continue(pace)
+                }
                 Flow::Stop => {
                     stopped = Some(window.to.time);
                     ControlFlow::Break(())
@@ -304,18 +352,8 @@ fn run<E: Element, L: PulleyLaw<E>>(
         },
     )
     .map_err(|cause| {
-        let IntegrationError::StepFailed {
-            time,
-            cause: failure,
-            ..
-        } = &cause;
-        let (layout, coordinate) = (&assembly.layout, failure.coordinate);
         let belt = (assembly.system.structure().chain(), E::NODE_DOF);
-        RunError::Step {
-            time: *time,
-            place: place(drive, layout, &motion.q, coordinate, belt),
-            cause,
-        }
+        RunError::step(drive, &assembly.layout, &motion.q, belt, cause)
     })?;
     if let Some(time) = stopped {
         return Err(RunError::Stopped { time });
@@ -333,6 +371,8 @@ fn run<E: Element, L: PulleyLaw<E>>(
     Ok(Outcome {
         start,
         audit,
+        end_time: recorder.end_time(),
+        settling: watch.map(|watch| watch.settling()),
         history: recorder.history,
         profile: recorder.profile,
         frames: recorder.frames,

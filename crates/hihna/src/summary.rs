@@ -37,7 +37,10 @@ pub struct Summary {
     pub start: Start,
     /// The last state.
     pub end: Report,
-    /// Means over the last tenth of the run.
+    /// Of a run until its means settle: whether they have.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settling: Option<SettlingSummary>,
+    /// Means over the last tenth of the run, or over the two windows in which they have settled.
     pub steady: Report,
     /// Standard deviations over the same time: how steady the means are.
     pub scatter: Scatter,
@@ -208,6 +211,22 @@ pub struct SpanScatter {
     pub deflection: f64,
 }
 
+/// Whether the means of a run have settled.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SettlingSummary {
+    /// Whether they have before `run.end_time`.
+    pub reached: bool,
+    /// When the run ended [s].
+    pub time: f64,
+    /// Length of the windows over which means were taken [s].
+    pub window: f64,
+    /// Change between the last two windows of the mean that changes most against what is allowed, relative to its nominal
+    /// value [-]; null before there are two.
+    pub change: Option<f64>,
+    /// What is allowed of it [-]: the accuracy of the run, or the standard error of a mean.
+    pub tolerance: f64,
+}
+
 /// The balances.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Audit {
@@ -236,12 +255,17 @@ impl Summary {
     /// The summary of `outcome`.
     #[must_use]
     pub fn new(drive: &Drive, outcome: &Outcome) -> Self {
-        let end = drive.run.end_time;
+        let end = outcome.end_time;
         let statistics = outcome.statistics;
         let last = outcome.history.rows().next_back().map_or(end, |row| row[0]);
-        let steady = report(drive, outcome, (1.0 - STEADY_PART) * end, end);
+        let (from, to) = match &outcome.settling {
+            Some(settling) if settling.reached => (settling.from, settling.to),
+            _ => ((1.0 - STEADY_PART) * end, end),
+        };
+        let steady = report(drive, outcome, from, to);
         let mut warnings: Vec<_> = outcome.warnings.iter().map(ToString::to_string).collect();
         warnings.extend(warnings::of_running(&steady));
+        warnings.extend(outcome.settling.as_ref().and_then(warnings::of_settling));
         Self {
             title: drive.title.clone(),
             model: Model {
@@ -272,8 +296,15 @@ impl Summary {
                 path_tension: outcome.mounting.tension,
             },
             end: report(drive, outcome, last, last),
+            settling: outcome.settling.map(|settling| SettlingSummary {
+                reached: settling.reached,
+                time: end,
+                window: settling.window,
+                change: settling.change.is_finite().then_some(settling.change),
+                tolerance: settling.tolerance,
+            }),
             steady,
-            scatter: scatter(drive, &outcome.history, (1.0 - STEADY_PART) * end, end),
+            scatter: scatter(drive, &outcome.history, from, to),
             audit: Audit {
                 energy_input: outcome.audit.energy_input,
                 energy_residual: outcome.audit.energy_residual,

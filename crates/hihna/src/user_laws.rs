@@ -28,7 +28,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::assemble::Warning;
-use crate::drive::{Drive, Pulley};
+use crate::drive::{Drive, Pulley, Start};
 use crate::friction::{Law, Stated, StatedFriction};
 use crate::load::{ExternalTorque, TorqueLaw};
 use crate::profile::Profile;
@@ -59,6 +59,16 @@ pub enum UserLawError {
     /// A pulley whose motion is prescribed takes any torque.
     #[error("there is a torque law for pulley `{pulley}`, but its motion is prescribed")]
     Driven {
+        /// The pulley.
+        pulley: String,
+    },
+    /// Steady running is solved with the laws of the drive itself.
+    #[error(
+        "there is a {law} law for pulley `{pulley}`, but `run.start = \"steady\"` knows the drive's own laws only: start from `rest`"
+    )]
+    SteadyStart {
+        /// What the law is of.
+        law: &'static str,
         /// The pulley.
         pulley: String,
     },
@@ -95,6 +105,10 @@ impl UserLaws {
                 Some(pulley) if law == "torque" && pulley.is_driver() => {
                     let pulley = name.clone();
                     return Err(UserLawError::Driven { pulley });
+                }
+                Some(_) if drive.run.start == Start::Steady => {
+                    let pulley = name.clone();
+                    return Err(UserLawError::SteadyStart { law, pulley });
                 }
                 Some(_) => {}
             }

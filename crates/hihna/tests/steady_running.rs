@@ -4,6 +4,7 @@ use ancf::element::BeltBeam2;
 use hihna::drive::Drive;
 use hihna::input::NumberField;
 use hihna::steady::drive_string::DriveString;
+use hihna::steady::running::campbell::campbell;
 use hihna::steady::running::map::{Axis, map};
 use hihna::steady::running::{
     Answer, Found, Outcome, Running, RunningBelt, force_and_moment, solve,
@@ -184,19 +185,57 @@ fn powers_balance() {
     }
 }
 
-/// 30 graded elements find the tensions that 80 equal ones do: the error of either is a quarter percent of what 160 graded
-/// ones give, which 80 graded ones meet within 2e-4.
+/// The slopes across the section are linear along an element: a face that touches, and the thickness strain of the cubic beam, jump in their
+/// derivatives from element to element, and `c R'` with them. Less is resolved than on the centre line of belt beams, but the balance closes
+/// with the mesh, at an order of 1.5 at least.
+#[test]
+fn powers_balance_in_the_limit() {
+    for (change, few, many) in [
+        ("contact.surface=face", 60, 480),
+        ("belt.element=cubic-beam", 60, 240),
+    ] {
+        let residual = |n: usize| {
+            let n = format!("belt.elements={n}");
+            let found = running(BASE, &[&n, LOAD, LOW_FRICTION, change]);
+            found.power_residual.abs()
+        };
+        let (coarse, fine) = (residual(few), residual(many));
+        let order = (coarse / fine).ln() / (many as f64 / few as f64).ln();
+        assert!(order > 1.5, "{change}: {coarse:e} {fine:e}");
+    }
+}
+
+/// 30 graded elements find what 80 equal ones do, as 480 graded ones say: tensions and, where the belt creeps all along the arcs, the speed
+/// loss. In the drive of low friction they miss the speed loss by a tenth: in the middle of the arcs they turn by 0.79 rad, where a
+/// cubic misses the circle by `R theta⁴/384` = 80 micrometres, more than the 33 by which the belt sinks in, so that it touches in patches. 40
+/// of them miss it by 25 and find it.
 #[test]
 fn grading() {
-    let tension = |n: usize, mesh: &str| {
+    let low = [LOAD, LOW_FRICTION];
+    let loaded = ["pulley.driven.torque=-10"];
+    let found = |text: &str, changes: &[&str], n: usize, mesh: &str| {
         let (n, mesh) = (format!("belt.elements={n}"), format!("steady.mesh={mesh}"));
-        running(BASE, &[&n, &mesh, LOAD, LOW_FRICTION]).spans[0].tension
+        let found = running(text, &[&[n.as_str(), &mesh], changes].concat());
+        let loss = 1.0 - found.pulleys[1].speed / found.pulleys[0].speed;
+        [found.spans[0].tension, loss]
     };
-    let exact = tension(160, "graded");
-    let error = |n: usize, mesh: &str| (tension(n, mesh) / exact - 1.0).abs();
-    let (few, many) = (error(30, "graded"), error(80, "uniform"));
-    assert!(few < 3.0e-3 && few < 1.5 * many, "{few:e} {many:e}");
-    assert!(error(80, "graded") < 3.0e-4 && error(80, "graded") < 0.2 * many);
+    for (text, changes, few) in [(BASE, &low[..], [30, 40]), (LOADED, &loaded, [30, 30])] {
+        let exact = found(text, changes, 480, "graded");
+        let many = found(text, changes, 80, "uniform");
+        for what in 0..2 {
+            let error = |value: f64| (value / exact[what] - 1.0).abs();
+            let graded = error(found(text, changes, few[what], "graded")[what]);
+            // Below 0.05 % neither matters.
+            assert!(
+                graded < (1.5 * error(many[what])).max(5.0e-4),
+                "{changes:?}, {what}: {graded:e} {:e}",
+                error(many[what])
+            );
+        }
+    }
+    let loss = |n| found(BASE, &low, n, "graded")[1];
+    let (coarse, exact) = (loss(30), loss(480));
+    assert!(coarse / exact > 1.05, "{coarse:e} {exact:e}");
 }
 
 /// In the limit the extensible string: thin belt, stiff pulleys, steep creep, to 0.1 % of the speed and 0.5 % of the tensions. Bending
@@ -308,15 +347,12 @@ fn refusals() {
         (&["pulley.driver.speed=0"][..], "ends with 0 rad/s"),
         (&["belt.damping_time=1e-3"], "`damping_time` of 0.001 s"),
         (
-            &["contact.friction={law=\"elastic-plastic\", coefficient=0.5, stiffness=1e8}"],
-            "remembers displacements",
-        ),
-        (
             &["pulley.driver.irregularity=[{order=2, amplitude=0.01}]"],
             "needs an even speed",
         ),
         (&["pulley.driver.angle=1"], "driven by its `angle`"),
         (&["pulley.driver.speed=300"], "the belt needs 61.2"),
+        (&["contact.friction.coefficient=0"], "no friction on pulley"),
     ] {
         let told = refusal(BASE, changes);
         assert!(told.contains(part), "{changes:?}: {told}");
@@ -427,6 +463,64 @@ fn modes_of_the_spans() {
         );
         assert!(modes.iter().all(|mode| mode.growth < 0.0), "{modes:?}");
     }
+}
+
+/// A Campbell diagram over the speed: every mode keeps its kind, the torsional one and those of the two spans, whose frequency falls
+/// with the speed as that of the travelling string does, to 0.5 % as above.
+#[test]
+fn campbell_diagram() {
+    let drive = drive(LOADED, &["belt.elements=60", "pulley.driven.torque=0"]);
+    let axis = Axis {
+        field: NumberField::find(&drive, "pulley.driver.speed").expect("a field"),
+        values: vec![30.0, 120.0, 210.0, 300.0],
+    };
+    let found = campbell(&drive, &axis, 3).expect("a diagram");
+    let mut last = f64::INFINITY;
+    for point in &found.points {
+        assert_eq!(point.answer, "running");
+        let there = axis.field.with(&drive, point.value).expect("a drive");
+        let Answer::Running(running) = solve(&there).expect("solved").answer else {
+            panic!("it does not run");
+        };
+        let length = hihna::layout::Layout::of(&there).expect("a path").spans[0].length;
+        let span = &running.spans[0];
+        let wave = (span.tension * (1.0 + span.strain) / (1036.0 * 1.0e-4)).sqrt();
+        let string =
+            std::f64::consts::PI * (wave * wave - span.speed * span.speed) / (length * wave);
+        let modes: Vec<_> = point.modes.iter().map(|m| m.expect("followed")).collect();
+        assert!(modes[0].pulley_share > 0.9, "{modes:?}");
+        for mode in &modes[1..] {
+            assert!(mode.pulley_share < 0.01, "{modes:?}");
+            assert_near("span", mode.frequency, string, 5.0e-3 * string);
+        }
+        assert!(string < last);
+        last = string;
+    }
+}
+
+/// Where no torque is among the axes the capacity is found point by point: a faster belt has less tension to grip with.
+#[test]
+fn capacity_along_a_map_of_speeds() {
+    let changes = ["belt.elements=30", LOW_FRICTION, LOAD];
+    let drive = drive(BASE, &changes);
+    let speed = Axis {
+        field: NumberField::find(&drive, "pulley.driver.speed").expect("a field"),
+        values: vec![12.0, 60.0],
+    };
+    let found = map(&drive, &[speed]);
+    let margin = found
+        .columns
+        .iter()
+        .position(|c| c == "margin")
+        .expect("a column");
+    for (row, speed) in found.rows.iter().zip(["12", "60"]) {
+        let speed = format!("pulley.driver.speed={speed}");
+        let alone = outcome(BASE, &[&changes[..], &[&speed]].concat());
+        let alone = alone.capacity.expect("a capacity").factor;
+        // The search ends where the load rises by less than 1e-4 while the slip doubles; the phase of the mesh differs.
+        assert_near("capacity", row.values[margin], alone, 5.0e-3 * alone);
+    }
+    assert!(found.rows[1].values[margin] < 0.99 * found.rows[0].values[margin]);
 }
 
 /// A map by whole solutions: rows in the order of the axes, capacity in proportion to the torque, points beyond it marked, and the same for one

@@ -3,7 +3,8 @@
 //! The elements of a time run pass the places where the belt runs on and off, those of the direct solution stay: its mean over
 //! four phases of the mesh is what the mean in time is compared with. Both are known to the scatter of the time run at best,
 //! which elements that pass and the last swings of the run-up make: differences up to twice the standard deviation are of
-//! that kind.
+//! that kind. Nor is a speed under a given torque known better than the powers of the direct solution balance on these elements, which
+//! counts where the scatter is a millionth.
 
 use hihna::drive::Drive;
 use hihna::layout::Layout;
@@ -43,10 +44,10 @@ fn assert_equal(text: &str, changes: &[&str]) {
         let speed = mean(&|running| running.pulleys[p].speed);
         let off = (speed - mean_in_time.speed).abs();
         let scatter = run.scatter.pulley.0[p].1.speed;
-        // A prescribed speed has no scatter but rounding.
+        let balance = mean(&|running| running.power_residual.abs()) * speed.abs();
         assert!(
-            off <= 2.0 * scatter + 1.0e-12 * speed.abs(),
-            "{changes:?}: {name} off by {off:.1e}, scatter {scatter:.1e}"
+            off <= (2.0 * scatter).max(balance),
+            "{changes:?}: {name} off by {off:.1e}, scatter {scatter:.1e}, balance {balance:.1e}"
         );
     }
     for (s, (name, mean_in_time)) in run.steady.span.0.iter().enumerate() {

@@ -1,6 +1,5 @@
 //! `hihna steady --model fe`: steady running of the finite elements.
 
-use std::f64::consts::PI;
 use std::fmt::Write;
 
 use hihna::drive::{Drive, SteadyMesh};
@@ -13,13 +12,11 @@ use serde::Serialize;
 use super::Arguments;
 use super::modes::{self, ModeSummary};
 use super::sensitivity::{self, SensitivitySummary};
+use super::words::{self, PulleyWords, RunningWords};
 use crate::diagnostics::{Failure, print_warning};
-use crate::quantities::{degrees, percent, plain, with_prefix};
+use crate::loudness::Loudness;
+use crate::quantities::with_prefix;
 use crate::standard_output;
-use crate::tables::columns;
-
-/// Radians per second of one turn per minute.
-const RPM: f64 = PI / 30.0;
 
 /// What `--json` prints: the summary and where the files are.
 #[derive(Serialize)]
@@ -37,7 +34,7 @@ struct Told<'a> {
 }
 
 /// Solves, records and tells.
-pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
+pub fn steady(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
     let file = arguments.source.open()?;
     let folder = arguments
         .out
@@ -73,7 +70,7 @@ pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
             sensitivity: sensitivity.as_ref(),
             modes: modes.as_deref(),
         })?;
-    } else {
+    } else if !loudness.quiet {
         let mut text = in_words(&summary, folder.as_deref());
         if let Some(fields) = &sensitivity {
             text.push('\n');
@@ -136,15 +133,7 @@ pub(super) fn failure(error: RunningError, file: &DriveFile) -> Failure {
 fn in_words(summary: &RunningSummary, folder: Option<&str>) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
-        "{}",
-        if summary.title.is_empty() {
-            "Belt drive"
-        } else {
-            &summary.title
-        }
-    );
+    let _ = writeln!(text, "{}", words::title(&summary.title));
     let model = &summary.model;
     let _ = writeln!(
         text,
@@ -160,7 +149,7 @@ fn in_words(summary: &RunningSummary, folder: Option<&str>) -> String {
     match &summary.steady {
         Some(steady) => text.push_str(&running_in_words(steady)),
         None => {
-            let _ = writeln!(text, "{}\n", super::words::capitalised(&summary.message));
+            let _ = writeln!(text, "{}\n", words::capitalised(&summary.message));
         }
     }
     if let Some(audit) = &summary.audit {
@@ -171,16 +160,7 @@ fn in_words(summary: &RunningSummary, folder: Option<&str>) -> String {
         );
     }
     if let Some(capacity) = &summary.capacity {
-        let torques: Vec<_> = (capacity.torque.0.iter())
-            .map(|(pulley, torque)| format!("{} on `{pulley}`", with_prefix(*torque, "N m")))
-            .collect();
-        let _ = writeln!(
-            text,
-            "Safety against gross slip: {}, then `{}` slips first\nLargest torque: {}",
-            plain(capacity.factor, "times the torques"),
-            capacity.pulley,
-            torques.join(", "),
-        );
+        text.push_str(&words::capacity_in_words(capacity));
     }
     if let Some(folder) = folder {
         let _ = writeln!(text, "Results: {folder}");
@@ -189,58 +169,29 @@ fn in_words(summary: &RunningSummary, folder: Option<&str>) -> String {
 }
 
 fn running_in_words(steady: &Steady) -> String {
-    let header = [
-        "pulley",
-        "speed",
-        "",
-        "external torque",
-        "slip",
-        "stick",
-        "contact",
-        "hub force",
-        "power",
-        "speed loss",
-    ];
-    let mut pulleys = columns(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);
-    for (name, pulley) in &steady.pulley.0 {
+    let pulleys = steady.pulley.0.iter().map(|(name, pulley)| {
         let report = &pulley.report;
-        pulleys.add_row([
-            name.clone(),
-            plain(report.speed, "rad/s"),
-            plain(report.speed / RPM, "rpm"),
-            with_prefix(report.external_torque, "N m"),
-            degrees(report.slip_angle),
-            degrees(pulley.stick_angle),
-            degrees(report.contact_angle),
-            with_prefix(report.hub_force[0].hypot(report.hub_force[1]), "N"),
-            with_prefix(report.power, "W"),
-            percent(report.speed_loss),
-        ]);
+        PulleyWords {
+            name,
+            speed: report.speed,
+            external_torque: report.external_torque,
+            slip_angle: report.slip_angle,
+            stick_angle: pulley.stick_angle,
+            arc: report.contact_angle,
+            hub_force: report.hub_force,
+            power: report.power,
+            speed_loss: report.speed_loss,
+        }
+    });
+    let spans = (steady.span.0.iter())
+        .map(|(name, span)| (name.as_str(), span.tension, span.speed, span.strain));
+    RunningWords {
+        arc: "contact",
+        pulleys: pulleys.collect(),
+        spans: spans.collect(),
+        speed_loss: steady.speed_loss,
+        powers: [steady.power_in, steady.power_out, steady.power_lost],
+        efficiency: steady.efficiency,
     }
-    let mut spans = columns(&["span", "tension", "belt speed", "strain"], &[1, 2, 3]);
-    for (name, span) in &steady.span.0 {
-        spans.add_row([
-            name.clone(),
-            with_prefix(span.tension, "N"),
-            plain(span.speed, "m/s"),
-            percent(span.strain),
-        ]);
-    }
-    let efficiency = steady
-        .efficiency
-        .map_or_else(|| "none, no power is taken out".to_owned(), percent);
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "{}\n", pulleys.trim_fmt());
-    let _ = writeln!(text, "{}\n", spans.trim_fmt());
-    let _ = writeln!(text, "Speed loss: {}", percent(steady.speed_loss));
-    let _ = writeln!(
-        text,
-        "Power: {} in, {} out, {} lost",
-        with_prefix(steady.power_in, "W"),
-        with_prefix(steady.power_out, "W"),
-        with_prefix(steady.power_lost, "W"),
-    );
-    let _ = writeln!(text, "Efficiency: {efficiency}");
-    text
+    .in_words()
 }

@@ -6,11 +6,13 @@ use hihna::drive::Drive;
 use hihna::input;
 use hihna::record::Folder;
 use hihna::steady::running::map::{Axis, Map, map};
+use hihna::summary::Named;
 use serde::Serialize;
 
 use super::Arguments;
 use super::elements::find_fields;
 use crate::diagnostics::Failure;
+use crate::loudness::Loudness;
 use crate::standard_output;
 
 mod table;
@@ -18,15 +20,35 @@ mod table;
 /// Most points of a map.
 const MOST_POINTS: usize = 1_000_000;
 
-/// What `--json` prints.
+/// What `--json` prints and, without the rows, `summary.json` holds.
 #[derive(Serialize)]
 struct Told<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     folder: Option<String>,
     title: &'a str,
+    map: ToldMap<'a>,
     /// Names of the values of a row.
     columns: &'a [String],
-    rows: Vec<ToldRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows: Option<Vec<ToldRow>>,
+}
+
+/// What the rows run over.
+#[derive(Clone, Serialize)]
+struct ToldMap<'a> {
+    /// The last one fastest.
+    axes: Vec<ToldAxis<'a>>,
+    /// Number of points by answer.
+    answers: Named<usize>,
+}
+
+#[derive(Clone, Serialize)]
+struct ToldAxis<'a> {
+    /// Path of the field, which is the name of its column.
+    key: &'a str,
+    unit: &'a str,
+    /// SI.
+    values: &'a [f64],
 }
 
 #[derive(Serialize)]
@@ -37,7 +59,7 @@ struct ToldRow {
 }
 
 /// Solves, records and tells.
-pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
+pub fn steady(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
     let file = arguments.source.open()?;
     let axes = axes(&file.drive, &arguments.map)?;
     let folder = arguments
@@ -47,9 +69,27 @@ pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
         .transpose()
         .map_err(Failure::Folder)?;
     let found = map(&file.drive, &axes);
+    let answers = answers(&found);
+    let told = |folder, rows| Told {
+        folder,
+        title: &file.drive.title,
+        map: ToldMap {
+            axes: (axes.iter())
+                .map(|axis| ToldAxis {
+                    key: &axis.field.key,
+                    unit: axis.field.unit,
+                    values: &axis.values,
+                })
+                .collect(),
+            answers: answers.clone(),
+        },
+        columns: &found.columns,
+        rows,
+    };
     if let Some(folder) = folder {
         let written = folder
             .text("drive.toml", &input::to_toml(&file.drive))
+            .and_then(|()| folder.json("summary.json", &told(None, None)))
             .and_then(|()| folder.text("map.csv", &table::csv(&found)))
             .and_then(|()| folder.bytes("map.parquet", &table::parquet(&found)?))
             .and_then(|()| folder.finish());
@@ -60,15 +100,11 @@ pub fn steady(arguments: &Arguments) -> Result<(), Failure> {
         .as_ref()
         .map(|place| place.display().to_string());
     if arguments.json {
-        return standard_output::print_json(&Told {
-            folder,
-            title: &file.drive.title,
-            columns: &found.columns,
-            rows: rows(&found),
-        });
+        return standard_output::print_json(&told(folder, Some(rows(&found))));
     }
     match folder {
-        Some(folder) => standard_output::print(&in_words(&found, &folder)),
+        Some(_) if loudness.quiet => Ok(()),
+        Some(folder) => standard_output::print(&in_words(found.rows.len(), &answers, &folder)),
         None => standard_output::print(&table::csv(&found)),
     }
 }
@@ -83,20 +119,26 @@ fn rows(found: &Map) -> Vec<ToldRow> {
     told.collect()
 }
 
-fn in_words(found: &Map, folder: &str) -> String {
-    let mut text = format!("{} points", found.rows.len());
-    for answer in ["running", "gross-slip", "slack", "none"] {
-        let count = found.rows.iter().filter(|row| row.answer == answer).count();
-        if count > 0 {
-            // Writing to a string cannot fail.
-            let _ = write!(text, ", {count} {answer}");
-        }
+/// How many points have which answer, of the answers that there are.
+fn answers(found: &Map) -> Named<usize> {
+    let count = |answer| found.rows.iter().filter(|row| row.answer == answer).count();
+    let all =
+        ["running", "gross-slip", "slack", "none"].map(|answer| (answer.to_owned(), count(answer)));
+    Named(all.into_iter().filter(|(_, count)| *count > 0).collect())
+}
+
+fn in_words(points: usize, answers: &Named<usize>, folder: &str) -> String {
+    let mut text = format!("{points} points");
+    for (answer, count) in &answers.0 {
+        // Writing to a string cannot fail.
+        let _ = write!(text, ", {count} {answer}");
     }
     let _ = writeln!(text, "\nResults: {folder}");
     text
 }
 
-fn axes(drive: &Drive, given: &[String]) -> Result<Vec<Axis>, Failure> {
+/// The axes that the user gives.
+pub(super) fn axes(drive: &Drive, given: &[String]) -> Result<Vec<Axis>, Failure> {
     let mut points = 1_usize;
     let axes = given
         .iter()

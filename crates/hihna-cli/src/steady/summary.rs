@@ -2,6 +2,7 @@
 
 use hihna::drive::Drive;
 use hihna::steady::drive_string::{DriveString, PulleySummary, SpanSummary, SteadyError};
+use hihna::steady::running::summary::CapacitySummary;
 use hihna::steady::string::{Answer, Capacity, GrossSlip, Role, Running, Tightness};
 use hihna::summary::Named;
 use serde::Serialize;
@@ -64,18 +65,6 @@ pub struct Steady {
 }
 
 #[derive(Debug, Serialize)]
-pub struct CapacitySummary {
-    /// Safety against gross slip: factor on all torques that brings it about.
-    pub factor: f64,
-    /// The pulley that slips first.
-    pub pulley: String,
-    /// Largest torque on that pulley, without sign.
-    pub largest_torque: f64,
-    /// External torques then on the pulleys that have one.
-    pub torque: Named<f64>,
-}
-
-#[derive(Debug, Serialize)]
 pub struct GrossSlipSummary {
     pub pulley: String,
     /// Null where no tension would do.
@@ -130,7 +119,7 @@ impl Summary {
                 summary.capacity = running
                     .capacity
                     .as_ref()
-                    .map(|capacity| CapacitySummary::new(string, capacity));
+                    .map(|capacity| capacity_summary(string, capacity));
                 if running.capacity.is_none() {
                     summary.largest_load = Some(largest_loads(string)?);
                 }
@@ -138,7 +127,7 @@ impl Summary {
             Answer::GrossSlip(slip) => {
                 summary.answer = "gross-slip";
                 summary.message = string.explain_gross_slip(slip);
-                summary.capacity = Some(CapacitySummary::new(string, &slip.capacity));
+                summary.capacity = Some(capacity_summary(string, &slip.capacity));
                 summary.gross_slip = Some(GrossSlipSummary::new(string, slip));
             }
             Answer::Slack(slack) => {
@@ -211,21 +200,19 @@ impl Steady {
     }
 }
 
-impl CapacitySummary {
-    fn new(string: &DriveString, capacity: &Capacity) -> Self {
-        let torques = string.names.iter().enumerate().map(|(i, name)| {
-            let torque = match string.string.pulleys[string.string_pulley(i)].role {
-                Role::SpeedControlled(_) => capacity.driver_torque,
-                Role::Torque(torque) => capacity.factor * torque,
-            };
-            (name.clone(), string.rotation(i) * torque)
-        });
-        Self {
-            factor: capacity.factor,
-            pulley: string.names[string.order[capacity.pulley]].clone(),
-            largest_torque: capacity.torque.abs(),
-            torque: Named(torques.filter(|(_, torque)| *torque != 0.0).collect()),
-        }
+fn capacity_summary(string: &DriveString, capacity: &Capacity) -> CapacitySummary {
+    let torques = string.names.iter().enumerate().map(|(i, name)| {
+        let torque = match string.string.pulleys[string.string_pulley(i)].role {
+            Role::SpeedControlled(_) => capacity.driver_torque,
+            Role::Torque(torque) => capacity.factor * torque,
+        };
+        (name.clone(), string.rotation(i) * torque)
+    });
+    CapacitySummary {
+        factor: capacity.factor,
+        pulley: string.names[string.order[capacity.pulley]].clone(),
+        largest_torque: capacity.torque.abs(),
+        torque: Named(torques.filter(|(_, torque)| *torque != 0.0).collect()),
     }
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use hihna::drive::{Drive, Friction};
+use hihna::steady::running::summary::CapacitySummary;
 
 use super::ClosureName;
 use super::summary::{ModelSummary, Steady, Summary};
@@ -17,15 +18,7 @@ impl Summary {
     pub fn in_words(&self, drive: &Drive) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{}",
-            if self.title.is_empty() {
-                "Belt drive"
-            } else {
-                &self.title
-            }
-        );
+        let _ = writeln!(text, "{}", title(&self.title));
         let _ = writeln!(text, "{}", self.model.in_words(drive));
         match &self.steady {
             Some(steady) => text.push_str(&steady.in_words()),
@@ -34,21 +27,7 @@ impl Summary {
             }
         }
         if let Some(capacity) = &self.capacity {
-            let torques = capacity.torque.0.iter();
-            let torques: Vec<_> = torques
-                .map(|(pulley, torque)| format!("{} on `{pulley}`", with_prefix(*torque, "N m")))
-                .collect();
-            let _ = writeln!(
-                text,
-                "Safety against gross slip: {}, then `{}` slips first\nLargest torque: {}",
-                plain(capacity.factor, "times the torques"),
-                capacity.pulley,
-                if torques.is_empty() {
-                    "none".to_owned()
-                } else {
-                    torques.join(", ")
-                },
-            );
+            text.push_str(&capacity_in_words(capacity));
         }
         if let Some(loads) = &self.largest_load {
             let _ = writeln!(
@@ -115,8 +94,33 @@ impl ModelSummary {
     }
 }
 
-impl Steady {
-    fn in_words(&self) -> String {
+/// What is told of a running drive, whatever the theory.
+pub(super) struct RunningWords<'a> {
+    /// Which arc of a pulley the theory knows.
+    pub arc: &'static str,
+    pub pulleys: Vec<PulleyWords<'a>>,
+    /// Name, tension, belt speed, strain.
+    pub spans: Vec<(&'a str, f64, f64, f64)>,
+    pub speed_loss: f64,
+    /// In, out, lost.
+    pub powers: [f64; 3],
+    pub efficiency: Option<f64>,
+}
+
+pub(super) struct PulleyWords<'a> {
+    pub name: &'a str,
+    pub speed: f64,
+    pub external_torque: f64,
+    pub slip_angle: f64,
+    pub stick_angle: f64,
+    pub arc: f64,
+    pub hub_force: [f64; 2],
+    pub power: f64,
+    pub speed_loss: f64,
+}
+
+impl RunningWords<'_> {
+    pub fn in_words(&self) -> String {
         let header = [
             "pulley",
             "speed",
@@ -124,51 +128,98 @@ impl Steady {
             "external torque",
             "slip",
             "stick",
-            "wrap",
+            self.arc,
             "hub force",
             "power taken",
             "speed loss",
         ];
         let mut pulleys = columns(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);
-        for (name, pulley) in &self.pulley.0 {
+        for pulley in &self.pulleys {
             pulleys.add_row([
-                name.clone(),
+                pulley.name.to_owned(),
                 plain(pulley.speed, "rad/s"),
                 plain(pulley.speed / RPM, "rpm"),
                 with_prefix(pulley.external_torque, "N m"),
                 degrees(pulley.slip_angle),
                 degrees(pulley.stick_angle),
-                degrees(pulley.wrap_angle),
+                degrees(pulley.arc),
                 with_prefix(pulley.hub_force[0].hypot(pulley.hub_force[1]), "N"),
                 with_prefix(pulley.power, "W"),
                 percent(pulley.speed_loss),
             ]);
         }
         let mut spans = columns(&["span", "tension", "belt speed", "strain"], &[1, 2, 3]);
-        for (name, span) in &self.span.0 {
+        for (name, tension, speed, strain) in &self.spans {
             spans.add_row([
-                name.clone(),
-                with_prefix(span.tension, "N"),
-                plain(span.speed, "m/s"),
-                percent(span.strain),
+                (*name).to_owned(),
+                with_prefix(*tension, "N"),
+                plain(*speed, "m/s"),
+                percent(*strain),
             ]);
         }
-        let efficiency = self
-            .efficiency
-            .map_or_else(|| "none, no power is fed in".to_owned(), percent);
+        let efficiency =
+            (self.efficiency).map_or_else(|| "none, no power is transmitted".to_owned(), percent);
+        let [put_in, taken_out, lost] = self.powers.map(|power| with_prefix(power, "W"));
         let mut text = String::new();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}\n", pulleys.trim_fmt());
         let _ = writeln!(text, "{}\n", spans.trim_fmt());
         let _ = writeln!(text, "Speed loss: {}", percent(self.speed_loss));
-        let _ = writeln!(
-            text,
-            "Power: {} in, {} out, {} lost",
-            with_prefix(self.power_in, "W"),
-            with_prefix(self.power_out, "W"),
-            with_prefix(self.power_lost, "W"),
-        );
+        let _ = writeln!(text, "Power: {put_in} in, {taken_out} out, {lost} lost");
         let _ = writeln!(text, "Efficiency: {efficiency}");
         text
     }
+}
+
+impl Steady {
+    fn in_words(&self) -> String {
+        let pulleys = self.pulley.0.iter().map(|(name, pulley)| PulleyWords {
+            name,
+            speed: pulley.speed,
+            external_torque: pulley.external_torque,
+            slip_angle: pulley.slip_angle,
+            stick_angle: pulley.stick_angle,
+            arc: pulley.wrap_angle,
+            hub_force: pulley.hub_force,
+            power: pulley.power,
+            speed_loss: pulley.speed_loss,
+        });
+        let spans = (self.span.0.iter())
+            .map(|(name, span)| (name.as_str(), span.tension, span.speed, span.strain));
+        RunningWords {
+            arc: "wrap",
+            pulleys: pulleys.collect(),
+            spans: spans.collect(),
+            speed_loss: self.speed_loss,
+            powers: [self.power_in, self.power_out, self.power_lost],
+            efficiency: self.efficiency,
+        }
+        .in_words()
+    }
+}
+
+/// The drive's title, or what stands for it.
+pub(super) fn title(title: &str) -> &str {
+    if title.is_empty() {
+        "Belt drive"
+    } else {
+        title
+    }
+}
+
+/// What the drive carries.
+pub(super) fn capacity_in_words(capacity: &CapacitySummary) -> String {
+    let torques: Vec<_> = (capacity.torque.0.iter())
+        .map(|(pulley, torque)| format!("{} on `{pulley}`", with_prefix(*torque, "N m")))
+        .collect();
+    format!(
+        "Safety against gross slip: {}, then `{}` slips first\nLargest torque: {}\n",
+        plain(capacity.factor, "times the torques"),
+        capacity.pulley,
+        if torques.is_empty() {
+            "none".to_owned()
+        } else {
+            torques.join(", ")
+        },
+    )
 }

@@ -77,7 +77,7 @@ pub(super) fn control(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> Co
         (Step::Named(_), _) => (
             (0.02 * smallest / speed * fineness)
                 .min(SWING_STEP * fineness / slowest_swing(drive, mounting))
-                .min(SWING_STEP * fineness / fastest_harmonic(drive))
+                .min(SWING_STEP * fineness / fastest_and_slowest_harmonic(drive).0)
                 .min(run.end_time),
             Some(PREDICTION_TOLERANCE * speed * fineness),
         ),
@@ -111,7 +111,7 @@ pub(super) fn control(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> Co
 
 /// Angular frequency [rad/s] of the slowest swing of a free pulley on the two spans beside it, zero if
 /// no pulley is free: the vibration that a changing speed excites first.
-fn slowest_swing(drive: &Drive, mounting: &Mounting) -> f64 {
+pub(super) fn slowest_swing(drive: &Drive, mounting: &Mounting) -> f64 {
     let belt = &drive.belt;
     let stiffness = belt.axial_factor * belt.youngs_modulus * belt.width * belt.thickness;
     // Spans are no longer than the belt: the estimate is on the slow side.
@@ -125,16 +125,14 @@ fn slowest_swing(drive: &Drive, mounting: &Mounting) -> f64 {
         .unwrap_or(0.0)
 }
 
-/// Angular frequency [rad/s] of the fastest prescribed irregularity, zero without one.
-fn fastest_harmonic(drive: &Drive) -> f64 {
-    drive
-        .pulley
-        .iter()
-        .flat_map(|pulley| {
-            let speed = pulley.speed.as_ref().map_or(0.0, Profile::bound);
-            pulley.irregularity.iter().map(move |h| h.order * speed)
-        })
-        .fold(0.0, f64::max)
+/// Angular frequencies [rad/s] of the fastest and the slowest prescribed irregularity, zero without one.
+pub(super) fn fastest_and_slowest_harmonic(drive: &Drive) -> (f64, f64) {
+    let all = drive.pulley.iter().flat_map(|pulley| {
+        let speed = pulley.speed.as_ref().map_or(0.0, Profile::bound);
+        pulley.irregularity.iter().map(move |h| h.order * speed)
+    });
+    let slowest = all.clone().reduce(f64::min).unwrap_or(0.0);
+    (all.fold(0.0, f64::max), slowest)
 }
 
 /// A stable step of the explicit scheme: half its real stability limit 2.78 for friction at full

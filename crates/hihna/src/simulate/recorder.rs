@@ -10,7 +10,7 @@ use ancf::system::{Mechanics, System};
 use super::control::nominal_speed;
 use super::{Audit, StartState};
 use crate::assemble::{Assembly, Mounting};
-use crate::drive::Drive;
+use crate::drive::{Drive, Start};
 use crate::history::History;
 use crate::layout::Layout;
 use crate::observe::{
@@ -234,6 +234,24 @@ impl Recorder {
         pace
     }
 
+    /// Ends the records at `state`, before the time that `drive` names: the profile of the end is due now.
+    pub fn finish<E: Element, L: PulleyLaw<E>>(
+        &mut self,
+        drive: &Drive,
+        system: &System<E, L>,
+        state: &Motion,
+    ) {
+        if drive.run.profile_times.is_empty() && self.next_profile < self.profile_times.len() {
+            self.observer.survey(system, state);
+            self.profile = self.observer.profile(state.time, &self.element_start);
+        }
+    }
+
+    /// Time of the last accepted state [s].
+    pub fn end_time(&self) -> f64 {
+        self.last_time
+    }
+
     /// Shorter steps while more than half of the tolerated energy is missing and the balance goes on
     /// worsening. What the drive holds at nominal speed counts as turned over, as every work has a start.
     fn pace(&self, residual: f64) -> Pace {
@@ -278,7 +296,12 @@ impl Recorder {
 
     pub fn audit(&self, drive: &Drive) -> Audit {
         // A drive at rest turns nothing over: compare with what the belt has stored.
-        let scale = self.work.turnover.max(1.0e-6 * self.initial.total());
+        // One that begins in motion holds what a run-up would have turned over.
+        let begun = match drive.run.start {
+            Start::Steady => self.initial.kinetic,
+            Start::Rest => 0.0,
+        };
+        let scale = (self.work.turnover + begun).max(1.0e-6 * self.initial.total());
         let torque_residual = self
             .momenta
             .iter()

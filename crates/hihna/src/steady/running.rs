@@ -39,12 +39,15 @@ macro_rules! with_belt_element {
     };
 }
 
+mod bristles;
+pub mod campbell;
 mod contact;
 mod continuation;
 mod equations;
 mod inertia;
 mod line;
 pub mod map;
+mod material;
 mod mesh;
 pub mod modes;
 mod newton;
@@ -94,6 +97,14 @@ pub enum RunningError {
     /// A field cannot have this value.
     #[error("{0}")]
     Field(String),
+    /// Solutions were lost on the way from the drive without torques.
+    #[error(
+        "no steady running was found: raising the torques from none, solutions were followed to {factor:.4} times those of the drive"
+    )]
+    Lost {
+        /// Factor on the torques that was reached.
+        factor: f64,
+    },
     /// Not even the drive without its torques was found to run.
     #[error(
         "no steady running was found, not even without torques: at {speed:.4} m/s the belt needs {centrifugal:.4} N to stay on the pulleys and has {tension:.4} N at rest (last correction {correction:.1e} m)"
@@ -267,6 +278,7 @@ impl<E: BeltElementType> RunningBelt<E> {
                 Some(Way::Exhausted(capacity)) => {
                     return Ok(Answer::GrossSlip(GrossSlip { capacity }));
                 }
+                Some(Way::Lost(factor)) => return Err(RunningError::Lost { factor }),
                 None => {}
             }
         }
@@ -299,11 +311,12 @@ impl<E: BeltElementType> RunningBelt<E> {
         }
     }
 
-    /// The most that the drive carries, from the state in which it runs; nothing where no torque acts.
+    /// The most that the drive carries, from the state in which it runs; nothing where no torque acts or, with friction that
+    /// remembers, where the search for it fails.
     pub fn capacity(&mut self, running: &Running) -> Option<Capacity> {
         match self.by_slip(&running.state, None)? {
             Way::Exhausted(capacity) => Some(capacity),
-            Way::Reached(_) => None,
+            Way::Reached(_) | Way::Lost(_) => None,
         }
     }
 

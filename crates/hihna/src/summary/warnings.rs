@@ -1,6 +1,7 @@
 //! What the means of a run tell about its drive, in words.
 
 use super::Report;
+use crate::simulate::Settling;
 
 /// Part of the wrap that touches where a belt is said to have lifted off, and of the contact that slips where
 /// a belt is said to slip.
@@ -33,4 +34,25 @@ pub(super) fn of_running(steady: &Report) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// A run that reached its end before its means settled.
+pub(super) fn of_settling(settling: &Settling) -> Option<String> {
+    if settling.reached {
+        return None;
+    }
+    let seen = if settling.change.is_finite() {
+        format!(
+            "the means of the last two windows of {:.4} s differ by {:.1e} of the nominal values, {:.0e} is allowed",
+            settling.window, settling.change, settling.tolerance
+        )
+    } else {
+        format!(
+            "after the last kink of the profiles there was no time for three windows of {:.4} s",
+            settling.window
+        )
+    };
+    Some(format!(
+        "the run reached `run.end_time` before its means settled: {seen}"
+    ))
 }

@@ -170,7 +170,8 @@ pub(super) fn ring_downs() -> Result<Quantities, CaseError> {
     ] {
         let run = run(text, &[CONVERGED])?;
         let (half_period, decay) = ring_down(&run, window, apart)?;
-        let root = RingDown::new(&run.drive, &run.outcome)
+        let (start, layout) = (run.outcome.start, &run.outcome.layout);
+        let root = RingDown::new(&run.drive, start.tension, layout)
             .and_then(|model| model.root(-decay, PI / half_period))
             .ok_or(CaseError::DoesNotRun)?;
         quantities.extend([

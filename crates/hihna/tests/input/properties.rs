@@ -3,7 +3,7 @@
 use hihna::drive::{
     AutoStep, Belt, BeltElement, Contact, Displacement, Drive, Friction, FrictionDirections,
     Harmonic, Integration, Integrator, Joint, PlateBending, Pulley, Run, Start, Step, Surface,
-    Wrap,
+    Until, Wrap,
 };
 use hihna::input::{self, Override};
 use hihna::layout::Layout;
@@ -255,7 +255,8 @@ fn run() -> impl Strategy<Value = Run> {
             } else {
                 Integrator::GeneralizedAlpha
             },
-            start: Start::Rest,
+            start: if flag { Start::Steady } else { Start::Rest },
+            until: if flag { Until::End } else { Until::Steady },
             profile_times: if flag {
                 vec![end_time * when, end_time]
             } else {

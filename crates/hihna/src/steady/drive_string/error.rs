@@ -67,11 +67,11 @@ pub enum SteadyError {
         /// Name of the pulley.
         pulley: String,
     },
-    /// Friction remembers.
+    /// Nothing but friction could fix a speed.
     #[error(
-        "friction of law `elastic-plastic` on pulley \"{pulley}\" remembers displacements, which steady running of the finite elements does not take into account"
+        "the belt has no friction on pulley \"{pulley}\": nothing fixes the speed of the one by the other"
     )]
-    Remembers {
+    NoFriction {
         /// Name of the pulley.
         pulley: String,
     },
@@ -160,9 +160,9 @@ impl SteadyError {
                 of_pulley(pulley).field("displacement"),
                 "give the `center` where it ends",
             ),
-            Self::Remembers { .. } => (
+            Self::NoFriction { .. } => (
                 FieldPath::default().field("contact").field("friction"),
-                "take law `coulomb`, or let `hihna run` step through time",
+                "give a coefficient of friction above zero",
             ),
             Self::Damped { .. } => (
                 FieldPath::default().field("belt").field("damping_time"),

@@ -15,9 +15,10 @@ use ancf::linear::BorderedMatrix;
 use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 
+use super::bristles::{Bristles, Marched, Turn};
 use super::line::{ContactLine, ElementMatrix, MOST_DOF, MOST_VECTORS, Passage, Weights};
 use super::split::{Piece, pieces};
-use crate::contact::{BeltPoint, ContactPulley, Penalty, PulleyContact};
+use crate::contact::{BeltPoint, ContactPulley, Penalty, PointContact, PulleyContact};
 
 /// Contact with all pulleys, integrated piece by piece.
 #[derive(Clone, Debug)]
@@ -26,6 +27,8 @@ pub(super) struct SteadyContact {
     pub penalty: Penalty,
     /// The rule on every piece.
     pub rule: Rule,
+    /// The bristles of laws with memory; none without such a law.
+    pub bristles: Option<Bristles>,
     pieces: Vec<Piece>,
     matrix: ElementMatrix,
 }
@@ -39,12 +42,14 @@ pub(super) enum By {
     Rates,
 }
 
-/// Motion of belt and pulleys: coordinates of the chain, circulation speed, speeds of the pulleys.
+/// Motion of belt and pulleys: coordinates of the chain, circulation speed, speeds of the pulleys and phases of their
+/// bristles, where there are any.
 #[derive(Clone, Copy)]
 pub(super) struct Motion<'a> {
     pub chain: &'a [f64],
     pub circulation: f64,
     pub speeds: &'a [f64],
+    pub phases: &'a [f64],
 }
 
 impl SteadyContact {
@@ -53,6 +58,7 @@ impl SteadyContact {
             pulleys,
             penalty,
             rule,
+            bristles: None,
             pieces: Vec::new(),
             matrix: ElementMatrix::new(dof),
         }
@@ -67,6 +73,7 @@ impl SteadyContact {
         torques: &mut [f64],
     ) {
         torques.fill(0.0);
+        self.transport(mesh, motion);
         let mut found = std::mem::take(&mut self.pieces);
         let mut e = [0.0; MOST_DOF];
         for (index, element) in mesh.elements().iter().enumerate() {
@@ -84,7 +91,7 @@ impl SteadyContact {
                     touched = true;
                     for (xi, weight) in self.points(piece) {
                         let weight = weight * line.length;
-                        let contact = passage.contact(xi);
+                        let contact = self.touch(&passage, p, index, xi);
                         let f = contact.force();
                         let weights = Weights::new(element, xi, pulley.height);
                         torques[p] += weight * contact.torque(pulley.radius);
@@ -112,6 +119,7 @@ impl SteadyContact {
         circulation: usize,
         matrix: &mut BorderedMatrix,
     ) {
+        self.transport(mesh, motion);
         let mut found = std::mem::take(&mut self.pieces);
         let mut local = std::mem::replace(&mut self.matrix, ElementMatrix::new(0));
         let mut e = [0.0; MOST_DOF];
@@ -135,9 +143,13 @@ impl SteadyContact {
                     for (xi, weight) in self.points(piece) {
                         let weights = Weights::new(element, xi, pulley.height);
                         let weight = weight * line.length;
+                        let turn = (self.bristles.as_ref()).map_or(Turn::default(), |bristles| {
+                            bristles.turn(p, &passage, index, xi)
+                        });
                         add_point::<E>(
                             &passage,
-                            by,
+                            &self.touch(&passage, p, index, xi),
+                            (by, turn),
                             (xi, weight),
                             &weights,
                             &mut local,
@@ -150,7 +162,9 @@ impl SteadyContact {
                         .filter(|(moves, _)| *moves && by == By::Unknowns)
                     {
                         let weights = Weights::new(element, xi, pulley.height);
-                        add_moving_end::<E>(&passage, xi, &weights, &mut local, &mut pulley_border);
+                        let contact = self.touch(&passage, p, index, xi);
+                        let end = (&contact, passage.line.slope(xi), pulley.radius);
+                        add_moving_end::<E>(end, &weights, &mut local, &mut pulley_border);
                     }
                 }
                 let first = index * E::NODE_DOF;
@@ -161,6 +175,11 @@ impl SteadyContact {
                 matrix.add_border_column(p, first, &pulley_border.column[..E::DOF]);
                 matrix.add_corner(p, p, pulley_border.by_speed);
                 matrix.add_corner(p, circulation, pulley_border.by_circulation);
+                if self.bristles.is_some() {
+                    let phase = circulation + 2 + p;
+                    matrix.add_border_column(phase, first, &pulley_border.by_phase[..E::DOF]);
+                    matrix.add_corner(p, phase, pulley_border.torque_by_phase);
+                }
             }
             if touched {
                 if by == By::Rates {
@@ -171,6 +190,76 @@ impl SteadyContact {
         }
         self.pieces = found;
         self.matrix = local;
+        if let Some(bristles) = self.bristles.as_ref().filter(|_| by == By::Unknowns) {
+            for p in 0..self.pulleys.len() {
+                let rows = (circulation + 2 + p, circulation);
+                let laws = (&self.penalty, &self.pulleys[p]);
+                bristles.add_row(p, rows, mesh, motion, laws, matrix);
+            }
+        }
+    }
+
+    /// Follows the bristles through the belt at `motion`.
+    pub fn transport<E: LineElement>(&mut self, mesh: &Mesh<E>, motion: Motion<'_>) {
+        let Some(mut bristles) = self.bristles.take() else {
+            return;
+        };
+        let mut found = std::mem::take(&mut self.pieces);
+        let forwards = motion.circulation > 0.0;
+        let mut e = [0.0; MOST_DOF];
+        for points in &mut bristles.points {
+            points.clear();
+        }
+        for (index, element) in mesh.elements().iter().enumerate() {
+            mesh.gather(index, motion.chain, &mut e[..E::DOF]);
+            for (p, pulley) in self.pulleys.iter().enumerate() {
+                let line = ContactLine::new(element, &e, pulley.height);
+                if !pulley.friction.has_memory() || line.misses(pulley.center, pulley.radius) {
+                    continue;
+                }
+                let passage = self.passage(&line, p, motion);
+                pieces(&passage, &mut found);
+                for piece in &found {
+                    let marched = |xi: f64, weight: f64| {
+                        let place = bristles.place(p, &passage, index, xi);
+                        Marched::new(&passage, index, place, xi, weight * line.length)
+                    };
+                    let (enters, at) = if forwards {
+                        (piece.begins, piece.from)
+                    } else {
+                        (piece.ends, piece.to)
+                    };
+                    let first = enters.then(|| Marched {
+                        begins: true,
+                        ..marched(at, 0.0)
+                    });
+                    let all: Vec<Marched> = (first.into_iter())
+                        .chain(self.points(piece).map(|(xi, weight)| marched(xi, weight)))
+                        .collect();
+                    bristles.points[p].extend(all);
+                }
+            }
+        }
+        let mut all = std::mem::take(&mut bristles.points);
+        for (p, points) in all.iter_mut().enumerate() {
+            let arc = &mut bristles.arcs[p];
+            arc.unknown = motion.phases[p];
+            let ratio = motion.speeds[p] / motion.circulation;
+            arc.march(points, self.pulleys[p].radius, ratio, forwards);
+        }
+        bristles.points = all;
+        self.pieces = found;
+        self.bristles = Some(bristles);
+    }
+
+    /// The contact at `xi` of `element`, with its bristle where the law has memory.
+    fn touch(&self, passage: &Passage<'_>, p: usize, element: usize, xi: f64) -> PointContact<f64> {
+        match &self.bristles {
+            Some(bristles) if passage.pulley.friction.has_memory() => {
+                bristles.touch(p, passage, element, xi)
+            }
+            _ => passage.contact(xi),
+        }
     }
 
     /// All points of the belt, in order, at the ends of whose pieces nothing is smooth.
@@ -179,6 +268,7 @@ impl SteadyContact {
         mesh: &Mesh<E>,
         motion: Motion<'_>,
     ) -> Vec<BeltPoint> {
+        self.transport(mesh, motion);
         let mut found = std::mem::take(&mut self.pieces);
         let mut out = Vec::new();
         let mut e = [0.0; MOST_DOF];
@@ -217,9 +307,10 @@ impl SteadyContact {
                     .find(|(_, piece)| piece.from < middle && middle < piece.to)
                     .map(|(p, _)| (*p, line_of(*p)));
                 for (xi, weight) in self.points(&whole) {
-                    let contact = on
-                        .as_ref()
-                        .map(|(p, line)| (*p, self.passage(line, *p, motion).contact(xi)));
+                    let contact = on.as_ref().map(|(p, line)| {
+                        let passage = self.passage(line, *p, motion);
+                        (*p, self.touch(&passage, *p, index, xi))
+                    });
                     out.push(BeltPoint {
                         element: index,
                         xi,
@@ -287,11 +378,15 @@ struct PulleyBorder {
     row: [f64; MOST_DOF],
     by_speed: f64,
     by_circulation: f64,
+    /// By the phase of the pulley's bristles.
+    by_phase: [f64; MOST_DOF],
+    torque_by_phase: f64,
 }
 
 fn add_point<E: LineElement>(
     passage: &Passage<'_>,
-    by: By,
+    contact: &PointContact<f64>,
+    (by, turn): (By, Turn),
     (xi, weight): (f64, f64),
     weights: &Weights,
     local: &mut ElementMatrix,
@@ -299,7 +394,6 @@ fn add_point<E: LineElement>(
 ) {
     let c = passage.circulation;
     let slope = passage.line.slope(xi);
-    let contact = passage.contact(xi);
     let radius = passage.pulley.radius;
     let by_r = contact.tangent(radius, 1.0, 0.0);
     let by_v = contact.tangent(radius, 0.0, 1.0);
@@ -318,12 +412,17 @@ fn add_point<E: LineElement>(
             border.row[2 * b + axis] += weight * (by_r.torque[axis] * n + by_v.torque[axis] * s);
         }
     }
+    // By the pulley's turn since the bristle stood unbent; zero for laws without memory.
+    let turned = by_r.force_by_pulley;
     let by_circulation = [
-        by_v.force[0] * slope[0] + by_v.force[1] * slope[1],
-        by_v.force[2] * slope[0] + by_v.force[3] * slope[1],
+        by_v.force[0] * slope[0] + by_v.force[1] * slope[1] + turned[0] * turn.circulation,
+        by_v.force[2] * slope[0] + by_v.force[3] * slope[1] + turned[1] * turn.circulation,
     ];
     border.by_circulation += weight * (by_v.torque[0] * slope[0] + by_v.torque[1] * slope[1]);
+    border.by_circulation += weight * by_r.torque_by_pulley * turn.circulation;
     border.by_speed += weight * by_v.torque_by_pulley;
+    border.by_speed += weight * by_r.torque_by_pulley * turn.speed;
+    border.torque_by_phase += weight * by_r.torque_by_pulley * turn.phase;
     for a in 0..vectors {
         let wn = weight * weights.value[a];
         if wn == 0.0 {
@@ -336,24 +435,23 @@ fn add_point<E: LineElement>(
                 local.local[row + 2 * b + 1] += wn * force[b][2 * axis + 1];
             }
             local.by_circulation[2 * a + axis] += wn * by_circulation[axis];
-            border.column[2 * a + axis] += wn * by_v.force_by_pulley[axis];
+            border.column[2 * a + axis] +=
+                wn * (by_v.force_by_pulley[axis] + turned[axis] * turn.speed);
+            border.by_phase[2 * a + axis] += wn * turned[axis] * turn.phase;
         }
     }
 }
 
 fn add_moving_end<E: LineElement>(
-    passage: &Passage<'_>,
-    xi: f64,
+    (contact, slope, radius): (&PointContact<f64>, [f64; 2], f64),
     weights: &Weights,
     local: &mut ElementMatrix,
     border: &mut PulleyBorder,
 ) {
-    let contact = passage.contact(xi);
-    let slope = passage.line.slope(xi);
     let n = contact.normal;
     let crossing = (n[0] * slope[0] + n[1] * slope[1]).abs();
     let f = contact.force();
-    let torque = contact.torque(passage.pulley.radius);
+    let torque = contact.torque(radius);
     let vectors = E::NODES * E::NODE_VECTORS;
     for b in 0..vectors {
         for j in 0..2 {

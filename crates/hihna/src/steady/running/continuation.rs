@@ -42,6 +42,8 @@ pub(super) enum Way {
     Reached(Vec<f64>),
     /// More slip raises the load no further.
     Exhausted(Capacity),
+    /// At this load factor the solutions were lost while it was still rising: nothing is known of those beyond.
+    Lost(f64),
 }
 
 impl<E: BeltElementType> RunningBelt<E> {
@@ -138,9 +140,17 @@ impl<E: BeltElementType> RunningBelt<E> {
         let mut step = FIRST_SLIP * travel;
         let mut best = z.clone();
         let mut flat = 0;
+        let mut lost = false;
         let mut trial = z.clone();
+        // The solution before and how much slip lies between: the next begins on the line through both.
+        let mut before: Option<(Vec<f64>, f64)> = None;
         for _ in 0..MAX_STAGES {
             trial.copy_from_slice(&z);
+            if let Some((before, between)) = &before {
+                for ((trial, now), before) in trial.iter_mut().zip(&z).zip(before) {
+                    *trial += step / between * (now - before);
+                }
+            }
             self.equations.control = Control::Slip(slip + step);
             let found = self
                 .newton
@@ -148,6 +158,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             if found.is_err() {
                 step *= 0.25;
                 if step < SMALLEST_SLIP * travel {
+                    lost = true;
                     break;
                 }
                 continue;
@@ -169,6 +180,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             } else {
                 0
             };
+            before = Some((z.clone(), step));
             z.copy_from_slice(&trial);
             if z[load] > best[load] {
                 best.copy_from_slice(&z);
@@ -178,6 +190,11 @@ impl<E: BeltElementType> RunningBelt<E> {
                 break;
             }
             step *= 2.0;
+        }
+        // Without memory solutions are lost where the last point of an arc begins to slide, with the load all but exhausted. Bristles
+        // let go point by point long before.
+        if lost && self.equations.contact.bristles.is_some() {
+            return Way::Lost(best[load]);
         }
         Way::Exhausted(self.capacity_at(&best))
     }

@@ -27,7 +27,8 @@ pub(super) enum Control {
     Slip(f64),
 }
 
-/// The equations of [`super`] for the unknowns `[chain, omega of every pulley, c, load factor]`.
+/// The equations of [`super`] for the unknowns `[chain, omega of every pulley, c, load factor]` and, with friction that
+/// remembers, the phase of the bristles on every pulley.
 #[derive(Debug)]
 pub(super) struct Equations<E> {
     pub mesh: Mesh<E>,
@@ -74,7 +75,7 @@ impl<E: LineElement> Equations<E> {
             sections: self.mesh.sections(),
             block: self.mesh.section_dof(),
             closed: true,
-            border: self.prescribed.len() + 2,
+            border: self.prescribed.len() + 2 + self.phases(),
         }
     }
 
@@ -93,12 +94,18 @@ impl<E: LineElement> Equations<E> {
         self.circulation() + 1
     }
 
+    /// Number of phases of bristles, which follow the load factor.
+    pub fn phases(&self) -> usize {
+        (self.contact.bristles.as_ref()).map_or(0, |bristles| bristles.arcs.len())
+    }
+
     pub fn motion<'a>(&self, z: &'a [f64]) -> Motion<'a> {
         let (chain, border) = z.split_at(self.chain());
         Motion {
             chain,
             circulation: z[self.circulation()],
             speeds: &border[..self.prescribed.len()],
+            phases: &border[self.prescribed.len() + 2..],
         }
     }
 
@@ -143,6 +150,11 @@ impl<E: LineElement> Equations<E> {
             Control::Load(factor) => factor - z[load],
             Control::Slip(slip) => slip - self.slip(z),
         };
+        if let Some(bristles) = &self.contact.bristles {
+            for (p, arc) in bristles.arcs.iter().enumerate() {
+                out[load + 1 + p] = arc.main_phase() - arc.unknown;
+            }
+        }
     }
 
     /// Writes minus the derivative of the residual at `z` to `matrix`.

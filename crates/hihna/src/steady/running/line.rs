@@ -120,12 +120,18 @@ impl Passage<'_> {
     /// The contact of the point at `xi`.
     #[inline]
     pub fn contact(&self, xi: f64) -> PointContact<f64> {
+        self.contact_with(xi, None)
+    }
+
+    /// The same with a bristle that stands at `anchor`.
+    #[inline]
+    pub fn contact_with(&self, xi: f64, anchor: Option<[f64; 2]>) -> PointContact<f64> {
         let meeting = Meeting {
             center: self.pulley.center,
             r: self.line.position(xi),
             v: self.line.slope(xi).map(|s| self.circulation * s),
             speed: self.speed,
-            anchor: None,
+            anchor,
         };
         PointContact::new(self.penalty, self.pulley, &meeting)
     }

@@ -1,15 +1,16 @@
 //! Maps: a drive solved at every combination of several of its numbers.
 //!
 //! Points are solved line by line, each from the state of its neighbour on the line, lines on all cores. A line runs along a
-//! torque where one is among the numbers: if all torques grow together on it, the capacity found at one point holds for all,
-//! and points beyond it are known to slip without a search. What is found does not depend on the number of threads.
+//! torque where one is among the numbers: while nothing but torques change, and all of them in proportion, the capacity found at one
+//! point holds for the next, and points beyond it are known to slip without a search. Where only torques and speeds
+//! change the belt is not put together again. What is found does not depend on the number of threads.
 
 use rayon::prelude::*;
 
 use super::summary::{RunningSummary, Steady};
 use super::{Answer, Capacity, Outcome, RunningBelt, RunningError};
 use crate::assemble::BeltElementType;
-use crate::drive::Drive;
+use crate::drive::{Drive, Pulley};
 use crate::input::NumberField;
 use crate::steady::drive_string::final_value;
 
@@ -95,14 +96,22 @@ fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
     values
 }
 
+/// What the points of a line hand on.
+struct Neighbour<E> {
+    drive: Drive,
+    belt: RunningBelt<E>,
+    /// The state in which it runs.
+    state: Vec<f64>,
+}
+
 fn solve_line<E: BeltElementType>(
     drive: &Drive,
     axes: &[Axis],
     line: &[usize],
     width: usize,
 ) -> Vec<(usize, Row)> {
-    let mut neighbour: Option<(RunningBelt<E>, Vec<f64>)> = None;
-    let mut known: Option<(Vec<f64>, Capacity)> = None;
+    let mut neighbour: Option<Neighbour<E>> = None;
+    let mut known: Option<(Drive, Capacity)> = None;
     line.iter()
         .map(|&point| {
             let values = values_at(axes, point);
@@ -117,8 +126,9 @@ fn solve_line<E: BeltElementType>(
             if let Ok(there) = there
                 && let Ok(outcome) = solve_point(&there, &mut neighbour, &mut known)
             {
-                row.answer = RunningSummary::new(&there, &outcome).answer;
-                row.values.extend(results(&there, &outcome));
+                let summary = RunningSummary::new(&there, &outcome);
+                row.answer = summary.answer;
+                row.values.extend(results(&summary));
             }
             row.values.resize(width, f64::NAN);
             (point, row)
@@ -128,35 +138,23 @@ fn solve_line<E: BeltElementType>(
 
 fn solve_point<E: BeltElementType>(
     drive: &Drive,
-    neighbour: &mut Option<(RunningBelt<E>, Vec<f64>)>,
-    known: &mut Option<(Vec<f64>, Capacity)>,
+    neighbour: &mut Option<Neighbour<E>>,
+    known: &mut Option<(Drive, Capacity)>,
 ) -> Result<Outcome, RunningError> {
-    let torques: Vec<f64> = drive
-        .pulley
-        .iter()
-        .map(|p| final_value(&p.torque))
-        .collect();
-    let constant = drive.pulley.iter().all(|p| p.load.is_none());
-    let scaled = known
-        .as_ref()
-        .filter(|_| constant)
-        .and_then(|(before, capacity)| scaled(before, &torques, capacity));
-    let near = match neighbour.take() {
-        Some((belt, z)) => RunningBelt::beside(drive, &belt, &z)
-            .ok()
-            .map(|belt| (belt, z)),
-        None => None,
-    };
-    let (mut belt, z) = match near {
-        Some((belt, z)) => (belt, Some(z)),
+    let scaled = (known.as_ref()).and_then(|(before, capacity)| scaled(before, drive, capacity));
+    let near = neighbour
+        .take()
+        .and_then(|near| near.moved_to(drive).ok().flatten());
+    let (mut belt, state) = match near {
+        Some(near) => (near.belt, Some(near.state)),
         None => (RunningBelt::new(drive)?, None),
     };
-    let answer = match (&scaled, &z) {
+    let answer = match (&scaled, &state) {
         (Some(capacity), _) if capacity.factor < 1.0 => Answer::GrossSlip(super::GrossSlip {
             capacity: capacity.clone(),
         }),
-        (_, Some(z)) => {
-            if let Some(answer) = belt.solve_near(z) {
+        (_, Some(state)) => {
+            if let Some(answer) = belt.solve_near(state) {
                 answer
             } else {
                 belt = RunningBelt::new(drive)?;
@@ -173,7 +171,7 @@ fn solve_point<E: BeltElementType>(
         Answer::GrossSlip(slip) => Some(&slip.capacity),
         _ => capacity.as_ref(),
     };
-    *known = most.filter(|_| constant).map(|c| (torques, c.clone()));
+    *known = most.map(|c| (drive.clone(), c.clone()));
     let outcome = Outcome {
         capacity,
         layout: belt.layout().clone(),
@@ -183,17 +181,58 @@ fn solve_point<E: BeltElementType>(
         warnings: Vec::new(),
         answer,
     };
-    if let Answer::Running(running) = &outcome.answer {
-        *neighbour = Some((belt, running.state.clone()));
-    } else if let Some(z) = z {
-        *neighbour = Some((belt, z));
-    }
+    let state = match &outcome.answer {
+        Answer::Running(running) => Some(running.state.clone()),
+        _ => state,
+    };
+    *neighbour = state.map(|state| Neighbour {
+        drive: drive.clone(),
+        belt,
+        state,
+    });
     Ok(outcome)
 }
 
-/// The capacity found under the torques `before`, under `now` that are in proportion to them.
-fn scaled(before: &[f64], now: &[f64], capacity: &Capacity) -> Option<Capacity> {
-    let (largest, at) = (before.iter().zip(now)).fold((0.0, 0.0), |most: (f64, f64), (b, n)| {
+impl<E: BeltElementType> Neighbour<E> {
+    /// The same belt in `drive`; nothing where it has other unknowns there.
+    fn moved_to(mut self, drive: &Drive) -> Result<Option<Self>, RunningError> {
+        if same_but(drive, &self.drive, |now, before| {
+            now.speed.clone_from(&before.speed);
+            now.torque.clone_from(&before.torque);
+        }) {
+            self.belt.redirect(drive)?;
+        } else {
+            let Some(belt) = RunningBelt::beside(drive, &self.belt, &self.state)? else {
+                return Ok(None);
+            };
+            self.belt = belt;
+        }
+        Ok(Some(self))
+    }
+}
+
+/// Whether `now` is `before` but for what `restore` sets back on every pulley.
+fn same_but(now: &Drive, before: &Drive, restore: impl Fn(&mut Pulley, &Pulley)) -> bool {
+    let mut restored = now.clone();
+    for (pulley, before) in restored.pulley.iter_mut().zip(&before.pulley) {
+        restore(pulley, before);
+    }
+    restored == *before
+}
+
+/// The capacity found of the drive `before` where `now` differs from it by its torques alone, all in proportion.
+fn scaled(before: &Drive, now: &Drive, capacity: &Capacity) -> Option<Capacity> {
+    let same = same_but(now, before, |now, before| {
+        now.torque.clone_from(&before.torque);
+    });
+    if !same || before.pulley.iter().any(|p| p.load.is_some()) {
+        return None;
+    }
+    let torques = |drive: &Drive| -> Vec<f64> {
+        (drive.pulley.iter().map(|p| final_value(&p.torque))).collect()
+    };
+    let (before, now) = (torques(before), torques(now));
+    let (largest, at) = (before.iter().zip(&now)).fold((0.0, 0.0), |most: (f64, f64), (b, n)| {
         if b.abs() > most.0.abs() {
             (*b, *n)
         } else {
@@ -202,7 +241,7 @@ fn scaled(before: &[f64], now: &[f64], capacity: &Capacity) -> Option<Capacity> 
     });
     let factor = at / largest;
     let proportional =
-        (before.iter().zip(now)).all(|(b, n)| (n - factor * b).abs() <= 1.0e-12 * at.abs());
+        (before.iter().zip(&now)).all(|(b, n)| (n - factor * b).abs() <= 1.0e-12 * at.abs());
     (factor > 0.0 && factor.is_finite() && proportional).then(|| Capacity {
         factor: capacity.factor / factor,
         ..capacity.clone()
@@ -241,8 +280,7 @@ fn columns(drive: &Drive, axes: &[Axis]) -> Vec<String> {
 }
 
 /// The results in the order of [`columns`].
-fn results(drive: &Drive, outcome: &Outcome) -> Vec<f64> {
-    let summary = RunningSummary::new(drive, outcome);
+fn results(summary: &RunningSummary) -> Vec<f64> {
     let nothing = f64::NAN;
     let margin = summary.capacity.as_ref().map_or(nothing, |c| c.factor);
     let overload = summary

@@ -70,6 +70,11 @@ struct Matrices {
 impl<E: BeltElementType> RunningBelt<E> {
     /// Up to `count` oscillating modes about `running`, by rising frequency.
     pub fn modes(&mut self, running: &Running, count: usize) -> Result<Vec<Mode>, NoModes> {
+        if self.equations.contact.bristles.is_some() {
+            return Err(NoModes(
+                "friction of law `elastic-plastic` remembers displacements, whose small motions are not known; take law `coulomb`",
+            ));
+        }
         let matrices = self.matrices(&running.state);
         let mut operator = Operator::new(&matrices, self.equations.chain())?;
         let most = operator.size().min(MOST_DIRECTIONS);

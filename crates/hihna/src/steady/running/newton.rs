@@ -28,6 +28,7 @@ pub(super) struct Newton {
     pub matrix: BorderedMatrix,
     pub solver: CyclicSolver,
     residual: Vec<f64>,
+    trial_residual: Vec<f64>,
     correction: Vec<f64>,
     trial: Vec<f64>,
     next: Vec<f64>,
@@ -57,6 +58,7 @@ impl Newton {
             matrix: BorderedMatrix::new(structure),
             solver: CyclicSolver::new(structure),
             residual: zeros.clone(),
+            trial_residual: zeros.clone(),
             correction: zeros.clone(),
             trial: zeros.clone(),
             next: zeros,
@@ -99,9 +101,9 @@ impl Newton {
         max_iterations: usize,
     ) -> Result<Converged, NotFound> {
         let mut last = f64::INFINITY;
+        equations.residual(z, &mut self.residual);
         for iteration in 1..=max_iterations {
             self.factor(equations, z)?;
-            equations.residual(z, &mut self.residual);
             self.correction.copy_from_slice(&self.residual);
             self.solver.solve(&mut self.correction);
             let (size, largest) = norms(&self.correction, &equations.scales);
@@ -124,7 +126,8 @@ impl Newton {
                 for ((trial, x), b) in self.trial.iter_mut().zip(&*z).zip(&self.correction) {
                     *trial = x + step * b;
                 }
-                equations.residual(&self.trial, &mut self.next);
+                equations.residual(&self.trial, &mut self.trial_residual);
+                self.next.copy_from_slice(&self.trial_residual);
                 self.solver.solve(&mut self.next);
                 // Not a number is no success.
                 if norms(&self.next, &equations.scales).0 <= (1.0 - 0.25 * step) * size {
@@ -143,6 +146,7 @@ impl Newton {
                 break;
             }
             z.copy_from_slice(&self.trial);
+            std::mem::swap(&mut self.residual, &mut self.trial_residual);
         }
         Err(NotFound { correction: last })
     }

@@ -11,14 +11,15 @@ use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 use ancf::system::Mechanics;
 
+use super::bristles::Bristles;
 use super::contact::SteadyContact;
 use super::equations::{Equations, Phase};
 use super::line::{ContactLine, MOST_DOF};
 use super::newton::Newton;
 use super::{RunningBelt, RunningError, mesh};
-use crate::assemble::{Assembly, AssemblyError, BeltElementType, coarse_mesh};
+use crate::assemble::{Assembly, AssemblyError, BeltElementType, Warning, coarse_mesh};
 use crate::contact::{ContactPulley, Penalty};
-use crate::drive::{Drive, Pulley};
+use crate::drive::{Drive, Friction, Integration, Pulley};
 use crate::friction::Law;
 use crate::layout::Layout;
 use crate::load::ExternalTorque;
@@ -57,16 +58,19 @@ impl<E: BeltElementType> RunningBelt<E> {
         assembly
             .warnings
             .extend(coarse_mesh(drive, &assembly.mounting));
+        if drive.contact.integration == Integration::Trapezoidal {
+            assembly.warnings.push(Warning::SplitIntegration);
+        }
         let frictionless = (assembly.system.law.pulleys.iter()).map(|p| p.friction.clone());
         let frictionless: Vec<_> = frictionless.collect();
         assembly.release(drive);
         for (contact, pulley) in assembly.system.law.pulleys.iter_mut().zip(&drive.pulley) {
             contact.external = final_torque(pulley);
         }
-        let laws = (assembly.system.law.pulleys.iter())
+        let laws: Vec<Law> = (assembly.system.law.pulleys.iter())
             .map(|p| p.friction.clone())
             .collect();
-        let equations = equations(drive, &assembly, prescribed);
+        let equations = equations(drive, &assembly, prescribed, &laws);
         assembly.system.law.set_friction(frictionless);
         let newton = Newton::new(equations.structure());
         let names: Vec<String> = drive.pulley.iter().map(|p| p.name.clone()).collect();
@@ -104,30 +108,52 @@ impl<E: BeltElementType> RunningBelt<E> {
         self.start.iterations = settled?.iterations;
         self.equations.phase = phase(&self.equations.mesh, &self.assembly.motion.q);
         self.guess_no_slip();
+        let guess = std::mem::take(&mut self.guess);
+        self.observe(&guess);
+        self.guess = guess;
+        self.start.tension = self.observer.mean_tension();
+        self.start.penetration = self.observer.penetration();
         Ok(())
     }
 
-    /// The belt of `drive` in the place of `other`, which runs in the state `z`: that makes the guess.
-    pub(super) fn beside(drive: &Drive, other: &Self, z: &[f64]) -> Result<Self, RunningError> {
+    /// Takes over the speeds and torques of `drive`, which is that of this belt in all other things.
+    pub(super) fn redirect(&mut self, drive: &Drive) -> Result<(), RunningError> {
+        self.equations.prescribed = prescribed_speeds(drive)?;
+        let contacts =
+            (self.assembly.system.law.pulleys.iter_mut()).zip(&mut self.equations.contact.pulleys);
+        for ((known, pulley), stated) in contacts.zip(&drive.pulley) {
+            known.external = final_torque(stated);
+            pulley.external = known.external.clone();
+        }
+        self.guess_no_slip();
+        Ok(())
+    }
+
+    /// The belt of `drive` in the place of `other`, which runs in the state `z`: that makes the guess. Nothing where it has
+    /// other unknowns.
+    pub(super) fn beside(
+        drive: &Drive,
+        other: &Self,
+        z: &[f64],
+    ) -> Result<Option<Self>, RunningError> {
         let starts = mesh::starts(drive, &Layout::of(drive).map_err(AssemblyError::from)?);
         let mut belt = Self::unsettled(drive, &starts)?;
         if belt.guess.len() != z.len() {
-            belt.settle(drive)?;
-            return Ok(belt);
+            return Ok(None);
         }
         let chain = belt.equations.chain();
         belt.assembly.motion.q[..chain].copy_from_slice(&z[..chain]);
         belt.equations.phase = phase(&belt.equations.mesh, &z[..chain]);
         belt.guess_no_slip();
         belt.start = other.start;
-        Ok(belt)
+        Ok(Some(belt))
     }
 
     /// Sets the guess of a belt that does not slip, the weights of the slip and the scales of the speeds.
     fn guess_no_slip(&mut self) {
         let (chain, load) = (self.equations.chain(), self.equations.load());
         let circulation = self.equations.circulation();
-        let mut z = vec![0.0; load + 1];
+        let mut z = vec![0.0; self.guess.len().max(load + 1)];
         z[..chain].copy_from_slice(&self.assembly.motion.q[..chain]);
         let arcs = &self.assembly.layout.arcs;
         let (driver, speed) = (self.equations.prescribed.iter().enumerate())
@@ -151,10 +177,26 @@ impl<E: BeltElementType> RunningBelt<E> {
                 self.equations.slip_weights[p] = sign * arc.radius;
             }
         }
-        self.observe(&z);
-        self.start.tension = self.observer.mean_tension();
-        self.start.penetration = self.observer.penetration();
+        self.guess_phases(&mut z);
         self.guess = z;
+    }
+}
+
+impl<E: BeltElementType> RunningBelt<E> {
+    /// Sets the phases of the bristles in `z` to what they are at its other unknowns.
+    fn guess_phases(&mut self, z: &mut [f64]) {
+        let load = self.equations.load();
+        let equations = &mut self.equations;
+        let motion = equations.motion(z);
+        equations.contact.transport(&equations.mesh, motion);
+        let Some(bristles) = &equations.contact.bristles else {
+            return;
+        };
+        let radii = self.assembly.layout.arcs.iter().map(|arc| arc.radius);
+        for (p, (arc, radius)) in bristles.arcs.iter().zip(radii).enumerate() {
+            z[load + 1 + p] = arc.main_phase();
+            equations.scales[load + 1 + p] = radius;
+        }
     }
 }
 
@@ -172,12 +214,7 @@ fn prescribed_speeds(drive: &Drive) -> Result<Vec<Option<f64>>, SteadyError> {
             time: drive.belt.damping_time,
         });
     }
-    let remembers =
-        |pulley: &&Pulley| Law::new(drive.friction_on(pulley), pulley.grip()).has_memory();
-    if let Some(pulley) = drive.pulley.iter().find(remembers) {
-        let pulley = pulley.name.clone();
-        return Err(SteadyError::Remembers { pulley });
-    }
+    friction_holds(drive)?;
     let speeds = (drive.pulley.iter())
         .map(prescribed_speed)
         .collect::<Result<Vec<_>, _>>()?;
@@ -185,6 +222,30 @@ fn prescribed_speeds(drive: &Drive) -> Result<Vec<Option<f64>>, SteadyError> {
         return Err(SteadyError::NoSpeed);
     }
     Ok(speeds)
+}
+
+/// Without friction on a driver nothing fixes the speed of the belt, without it on another pulley nothing that pulley's.
+fn friction_holds(drive: &Drive) -> Result<(), SteadyError> {
+    let slips = |pulley: &&Pulley| match drive.friction_on(pulley) {
+        Friction::Stribeck {
+            static_coefficient,
+            sliding_coefficient,
+            ..
+        } => *static_coefficient == 0.0 && *sliding_coefficient == 0.0,
+        friction => friction.coefficient() == 0.0,
+    };
+    let mut drivers = drive.pulley.iter().filter(|p| p.is_driver()).peekable();
+    let idle = drivers
+        .peek()
+        .copied()
+        .filter(|_| drivers.clone().all(|p| slips(&p)));
+    let free = (drive.pulley.iter()).find(|p| !p.is_driver() && slips(p));
+    match idle.or(free) {
+        Some(pulley) => Err(SteadyError::NoFriction {
+            pulley: pulley.name.clone(),
+        }),
+        None => Ok(()),
+    }
 }
 
 fn prescribed_speed(pulley: &Pulley) -> Result<Option<f64>, SteadyError> {
@@ -220,6 +281,7 @@ fn equations<E: BeltElementType>(
     drive: &Drive,
     assembly: &Assembly<E>,
     prescribed: Vec<Option<f64>>,
+    laws: &[Law],
 ) -> Equations<E> {
     let mesh = assembly.system.mesh().clone();
     let points = NonZeroUsize::new(drive.contact.points).unwrap_or(NonZeroUsize::MIN);
@@ -229,10 +291,22 @@ fn equations<E: BeltElementType>(
         clamp: drive.contact.clamp_normal_force,
     };
     let pulleys: Vec<ContactPulley> = assembly.system.law.pulleys.clone();
-    let contact = SteadyContact::new(pulleys, penalty, Rule::gauss(points), E::DOF);
+    let mut contact = SteadyContact::new(pulleys, penalty, Rule::gauss(points), E::DOF);
+    if laws.iter().any(Law::has_memory) {
+        contact.bristles = Some(Bristles::new(
+            &mesh,
+            &assembly.layout,
+            drive.belt.first_node,
+        ));
+    }
     let phase = phase(&mesh, &assembly.motion.q);
     let constant = gravity(drive, assembly, mesh.dof());
-    let scales = scales(drive, &mesh, prescribed.len() + 2);
+    let border = prescribed.len() + 2;
+    let scales = scales(
+        drive,
+        &mesh,
+        border + contact.bristles.as_ref().map_or(0, |b| b.arcs.len()),
+    );
     Equations::new(mesh, contact, constant, prescribed, phase, scales)
 }
 

@@ -236,7 +236,7 @@ fn cut(pieces: &mut Vec<Piece>, first: usize, at: f64) {
 }
 
 /// The root of `f` between `a` and `b`, where it has values `fa`, `fb` of different sign: regula falsi in
-/// the Illinois form, by halves where that is slow.
+/// the Illinois form, by halves where that is slow, until it stays where it is.
 fn root(f: impl Fn(f64) -> f64, a: f64, fa: f64, b: f64, fb: f64) -> f64 {
     let (mut a, mut fa, mut b, mut fb) = (a, fa, b, fb);
     for i in 0..BISECTIONS {
@@ -248,6 +248,9 @@ fn root(f: impl Fn(f64) -> f64, a: f64, fa: f64, b: f64, fb: f64) -> f64 {
         } else {
             0.5 * (a + b)
         };
+        if (x - b).abs() <= f64::EPSILON {
+            return x;
+        }
         let fx = f(x);
         if fx == 0.0 || !fx.is_finite() {
             return x;

@@ -1,0 +1,260 @@
+//! `run.until = "steady"`: whether the means of a run have settled.
+//!
+//! From the last kink of the profiles on, time is cut into windows of the length W: P whole passages of an element through a
+//! place of the belt's path, at least one period of the slowest swing of a free pulley and of every prescribed irregularity,
+//! and twenty rows of the history. With the mean `m_k` and the standard deviation `s_k` over window k of every pulley's speed and every
+//! span's tension, by their nominal values, `d_k = |m_k - m_(k-1)|` and the accuracy of the run, the run has settled when for all of
+//! them
+//!
+//! ```text
+//! d_(k-1) <= a,  d_k <= a    and    d_k² / (d_(k-1) - d_k) <= a    or both below a / 10
+//! a = accuracy; where the scatter no longer shrinks, s_k >= 0.8 s_(k-1), at least the standard error s_k / sqrt(P) of a mean
+//! ```
+//!
+//! What the third says is left to come of changes that go on shrinking by the same factor. Coarse meshes shake the belt as elements pass, so
+//! that means are known to their standard error only. Changes below a tenth are taken for scatter: a mean that drifts more slowly
+//! than by that in a window is beyond this criterion.
+
+use std::f64::consts::TAU;
+
+use super::control::{fastest_and_slowest_harmonic, nominal_speed, slowest_swing};
+use crate::assemble::Mounting;
+use crate::drive::Drive;
+use crate::history::History;
+
+/// Least number of rows of the history in a window.
+const ROWS: f64 = 20.0;
+/// Part of the accuracy below which changes are scatter.
+const SCATTER: f64 = 0.1;
+/// Least ratio of the standard deviations of windows whose scatter no longer shrinks.
+const STATIONARY: f64 = 0.8;
+
+/// Whether and when a run has settled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settling {
+    /// Whether it has.
+    pub reached: bool,
+    /// Where the last two whole windows begin and end [s].
+    pub from: f64,
+    /// Their end [s].
+    pub to: f64,
+    /// Length of a window [s].
+    pub window: f64,
+    /// Change between the last two windows of the mean that changes most against what is allowed, relative to its nominal value [-];
+    /// not a number before there are two.
+    pub change: f64,
+    /// What is allowed of it [-].
+    pub tolerance: f64,
+}
+
+/// A column of the history and its nominal value.
+#[derive(Clone, Copy, Debug)]
+struct Watched {
+    column: usize,
+    scale: f64,
+}
+
+/// Mean and standard deviation over a window.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    mean: f64,
+    deviation: f64,
+}
+
+/// Reads the rows of a history as they come.
+#[derive(Clone, Debug)]
+pub(super) struct Watch {
+    watched: Vec<Watched>,
+    settling: Settling,
+    /// Rows read.
+    read: usize,
+    /// Start of the open window [s], its sums and number of rows.
+    begins: f64,
+    sums: Vec<[f64; 2]>,
+    rows: usize,
+    /// Passages in a window, and the accuracy of the run.
+    passages: f64,
+    accuracy: f64,
+    /// Of the windows before, latest last, three at most.
+    windows: Vec<Vec<Moments>>,
+}
+
+impl Watch {
+    /// A watch of the run of `drive` into `history`.
+    pub fn new(drive: &Drive, mounting: &Mounting, history: &History) -> Self {
+        let speed = nominal_speed(drive);
+        let column = |name: String| history.columns().iter().position(|c| *c == name);
+        let next = drive.pulley.iter().cycle().skip(1);
+        let watched: Vec<Watched> = (drive.pulley.iter().zip(next))
+            .flat_map(|(pulley, next)| {
+                let span = format!("{}-{}.tension", pulley.name, next.name);
+                [
+                    (format!("{}.speed", pulley.name), speed / pulley.radius),
+                    (span, mounting.tension),
+                ]
+            })
+            .filter_map(|(name, scale)| column(name).map(|column| Watched { column, scale }))
+            .collect();
+        let begins = last_kink(drive);
+        let passage = mounting.path / (drive.belt.elements as f64 * speed);
+        let passages = (least_window(drive, mounting) / passage).ceil().max(1.0);
+        Self {
+            sums: vec![[0.0; 2]; watched.len()],
+            watched,
+            settling: Settling {
+                reached: false,
+                from: begins,
+                to: begins,
+                window: passages * passage,
+                change: f64::NAN,
+                tolerance: drive.run.accuracy,
+            },
+            read: 0,
+            begins,
+            rows: 0,
+            passages,
+            accuracy: drive.run.accuracy,
+            windows: Vec::new(),
+        }
+    }
+
+    /// Takes the new rows of `history` in; whether the run has settled.
+    pub fn settled(&mut self, history: &History) -> bool {
+        for row in history.rows().skip(self.read) {
+            self.read += 1;
+            if row[0] < self.begins {
+                continue;
+            }
+            if row[0] >= self.begins + self.settling.window {
+                self.close();
+                if self.settling.reached {
+                    return true;
+                }
+            }
+            for (sum, watched) in self.sums.iter_mut().zip(&self.watched) {
+                let value = row[watched.column] / watched.scale;
+                sum[0] += value;
+                sum[1] += value * value;
+            }
+            self.rows += 1;
+        }
+        false
+    }
+
+    /// What was seen.
+    pub fn settling(&self) -> Settling {
+        self.settling
+    }
+
+    /// Ends the open window and judges.
+    fn close(&mut self) {
+        let rows = self.rows as f64;
+        let moments = self.sums.iter().map(|[sum, squares]| {
+            let mean = sum / rows;
+            Moments {
+                mean,
+                deviation: (squares / rows - mean * mean).max(0.0).sqrt(),
+            }
+        });
+        self.windows.push(moments.collect());
+        self.sums.fill([0.0; 2]);
+        self.rows = 0;
+        self.begins += self.settling.window;
+        if self.windows.len() > 3 {
+            self.windows.remove(0);
+        }
+        self.settling.to = self.begins;
+        self.settling.from = self.begins - 2.0 * self.settling.window;
+        let [earlier @ .., before, last] = self.windows.as_slice() else {
+            return;
+        };
+        let mut settled = !earlier.is_empty();
+        let mut worst = 0.0;
+        for (i, (before, last)) in before.iter().zip(last).enumerate() {
+            let stationary = last.deviation >= STATIONARY * before.deviation;
+            let error = last.deviation / self.passages.sqrt();
+            let allowed = if stationary {
+                self.accuracy.max(error)
+            } else {
+                self.accuracy
+            };
+            let change = (last.mean - before.mean).abs();
+            if change / allowed >= worst {
+                worst = change / allowed;
+                self.settling.change = change;
+                self.settling.tolerance = allowed;
+            }
+            if let [earlier] = earlier {
+                let changed = (before.mean - earlier[i].mean).abs();
+                settled &= is_settled(changed, change, allowed);
+            }
+        }
+        self.settling.reached = settled;
+    }
+}
+
+/// The criterion for the changes of one mean.
+fn is_settled(before: f64, last: f64, tolerance: f64) -> bool {
+    // Not a number is within nothing.
+    let within = |limit: f64| before <= limit && last <= limit;
+    let remaining = last * last / (before - last);
+    within(SCATTER * tolerance) || (within(tolerance) && last < before && remaining <= tolerance)
+}
+
+/// When the profiles of `drive` have come to their last values [s].
+fn last_kink(drive: &Drive) -> f64 {
+    let hubs = (drive.pulley.iter())
+        .filter_map(|pulley| pulley.displacement.as_ref())
+        .flat_map(|hub| [&hub.x, &hub.y, &hub.z]);
+    (drive.pulley.iter())
+        .flat_map(|p| [Some(&p.torque), p.speed.as_ref(), p.angle.as_ref()])
+        .flatten()
+        .chain(hubs)
+        .flat_map(crate::profile::Profile::kinks)
+        .fold(0.0, f64::max)
+}
+
+/// Least length of a window [s].
+fn least_window(drive: &Drive, mounting: &Mounting) -> f64 {
+    let period = |frequency: f64| {
+        if frequency > 0.0 {
+            TAU / frequency
+        } else {
+            0.0
+        }
+    };
+    let (_, slowest) = fastest_and_slowest_harmonic(drive);
+    period(slowest_swing(drive, mounting))
+        .max(period(slowest))
+        .max(ROWS * drive.run.output_interval)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_settled;
+
+    /// Means that come to rest by the factor q a window, `m_k = q^k`: after the changes `d`, `q d`, what is left is `q² d/(1 - q)` exactly,
+    /// however slow.
+    #[test]
+    fn slow_decays_are_seen_to_their_end() {
+        for q in [0.2_f64, 0.5, 0.9, 0.99] {
+            for k in 0..2000 {
+                let error = q.powi(k + 2);
+                let before = q.powi(k) - q.powi(k + 1);
+                let last = q.powi(k + 1) - error;
+                if is_settled(before, last, 1.0e-3) && before > 1.0e-4 {
+                    assert!(error <= 1.0e-3 * (1.0 + 1.0e-9), "{q}: {error}");
+                }
+            }
+        }
+    }
+
+    /// Scatter may grow, larger changes may not.
+    #[test]
+    fn scatter_and_growth() {
+        assert!(is_settled(1.0e-5, 9.0e-5, 1.0e-3));
+        assert!(!is_settled(1.0e-4, 5.0e-4, 1.0e-3));
+        assert!(!is_settled(f64::NAN, 0.0, 1.0e-3));
+        assert!(!is_settled(2.0e-3, 1.0e-5, 1.0e-3));
+    }
+}
