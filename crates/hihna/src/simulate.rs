@@ -8,12 +8,15 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use ancf::dynamics::{IntegrationError, Statistics, integrate};
-use ancf::element::{BeltBeam2, CubicBeam2, Element, LinearBeam2};
+use ancf::element::{BeltBeam2, BeltBeam3, CubicBeam2, Element, LinearBeam2, LinearBeam3};
 use ancf::statics::{Settle, Settled, StaticsError, settle_watched};
 use ancf::system::Mechanics;
 use thiserror::Error;
 
-use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, Warning};
+use crate::assemble::{
+    Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, SpaceBeamAssembly,
+    SpaceBeltElement, Warning,
+};
 use crate::drive::{BeltElement, Drive, Joint};
 use crate::history::History;
 use crate::layout::Layout;
@@ -188,6 +191,8 @@ pub fn simulate(
         BeltElement::BeltBeam => planar::<BeltBeam2>(drive, observer),
         BeltElement::CubicBeam => planar::<CubicBeam2>(drive, observer),
         BeltElement::LinearBeam => planar::<LinearBeam2>(drive, observer),
+        BeltElement::BeltBeam3d => spatial::<BeltBeam3>(drive, observer),
+        BeltElement::LinearBeam3d => spatial::<LinearBeam3>(drive, observer),
         BeltElement::Plate => run(
             drive,
             observer,
@@ -215,6 +220,18 @@ fn planar<E: BeltElementType>(
             assembly.release(drive);
             Ok(())
         },
+    )
+}
+
+fn spatial<E: SpaceBeltElement>(
+    drive: &Drive,
+    observer: &mut dyn FnMut(&Progress) -> Flow,
+) -> Result<Outcome, RunError> {
+    run(
+        drive,
+        observer,
+        || SpaceBeamAssembly::<E>::of_beams(drive),
+        |assembly| assembly.release_beams(drive),
     )
 }
 
