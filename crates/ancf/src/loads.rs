@@ -8,8 +8,10 @@
 //! ```
 
 mod rotating_frame;
+mod surface;
 
 pub use rotating_frame::RotatingFrame;
+pub use surface::SurfaceLoads;
 
 use crate::linear::BorderedMatrix;
 use crate::system::{ForceLaw, State};

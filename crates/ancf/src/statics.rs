@@ -48,6 +48,44 @@ pub struct Settle {
     pub max_iterations: usize,
 }
 
+/// A spring that keeps a vector near its start along a direction, and not at all across it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// First coordinate of the vector.
+    pub first: usize,
+    /// Unit vector; zero beyond the dimension of the vector.
+    pub direction: [f64; 3],
+    /// Stiffness [N/m].
+    pub stiffness: f64,
+}
+
+impl Hold {
+    /// Components of the direction that are not zero, with their coordinates.
+    fn components(&self) -> impl Iterator<Item = (usize, f64)> + Clone + use<> {
+        let first = self.first;
+        let components = self.direction.into_iter().enumerate();
+        let components = components.filter(|(_, component)| *component != 0.0);
+        components.map(move |(axis, component)| (first + axis, component))
+    }
+
+    fn add_force(&self, start: &[f64], q: &[f64], force: &mut [f64]) {
+        let moved: f64 = (self.components())
+            .map(|(i, component)| component * (q[i] - start[i]))
+            .sum();
+        for (i, component) in self.components() {
+            force[i] -= self.stiffness * moved * component;
+        }
+    }
+
+    fn add_tangent(&self, matrix: &mut BorderedMatrix) {
+        for (i, a) in self.components() {
+            for (j, b) in self.components() {
+                matrix.add(i, j, self.stiffness * a * b);
+            }
+        }
+    }
+}
+
 /// A found equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settled {
@@ -97,17 +135,18 @@ pub fn settle(
     q: &mut [f64],
     options: Settle,
 ) -> Result<Settled, StaticsError> {
-    settle_watched(system, time, q, options, &mut |_, _| {
+    settle_watched(system, time, q, &[], options, &mut |_, _| {
         ControlFlow::Continue(())
     })
 }
 
-/// [`settle`], showing `watch` the number and the configuration of every iteration; it stops where
-/// `watch` breaks.
+/// [`settle`] on the springs `holds`, showing `watch` the number and the configuration of every iteration; it
+/// stops where `watch` breaks.
 pub fn settle_watched(
     system: &mut dyn Mechanics,
     time: f64,
     q: &mut [f64],
+    holds: &[Hold],
     options: Settle,
     watch: &mut dyn FnMut(usize, &[f64]) -> ControlFlow<()>,
 ) -> Result<Settled, StaticsError> {
@@ -122,6 +161,7 @@ pub fn settle_watched(
     for (index, _) in system.prescribed() {
         fixed[*index] = true;
     }
+    let start = q.to_vec();
     let mut matrix = BorderedMatrix::new(structure);
     let mut solver = CyclicSolver::new(structure);
     let mut force = vec![0.0; size];
@@ -139,6 +179,9 @@ pub fn settle_watched(
         matrix.clear();
         matrix.add_scaled(shift, system.mass());
         system.add_tangent(state, 1.0, 0.0, &mut matrix);
+        for hold in holds {
+            hold.add_tangent(&mut matrix);
+        }
         for (index, is_fixed) in fixed.iter().enumerate() {
             if *is_fixed {
                 matrix.set_unit_row(index);
@@ -146,6 +189,9 @@ pub fn settle_watched(
         }
         let evaluate = |system: &mut dyn Mechanics, q: &[f64], out: &mut [f64]| {
             system.force(State { time, q, v: &rest }, out);
+            for hold in holds {
+                hold.add_force(&start, q, out);
+            }
             for (value, is_fixed) in out.iter_mut().zip(&fixed) {
                 if *is_fixed {
                     *value = 0.0;

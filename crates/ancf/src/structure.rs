@@ -1,4 +1,4 @@
-//! Planar structures of beams: mesh, section, material, supports, loads, and an answer.
+//! Structures of beams and plates: mesh, section, material, supports, loads, and an answer.
 //!
 //! ```
 //! use ancf::element::LinearBeam2;
@@ -26,9 +26,11 @@
 mod build;
 mod free_motion;
 mod modes;
+mod plate;
 
 pub use free_motion::{FreeMotion, RigidMotion};
 pub use modes::Mode;
+pub use plate::{Edge, PlateStructure};
 
 use std::sync::Arc;
 
@@ -97,6 +99,14 @@ pub enum StructureError {
         /// The last node.
         last: usize,
     },
+    /// A node that the plate does not have.
+    #[error("there is no node {node:?}: the nodes are [0, 0] to {last:?}, with axes 0 to 2")]
+    NoPlateNode {
+        /// The node given.
+        node: [usize; 2],
+        /// The last node.
+        last: [usize; 2],
+    },
     /// A body that the structure does not have.
     #[error("there is no rigid body {body}: {bodies} were added")]
     NoBody {
@@ -140,6 +150,12 @@ pub enum StructureError {
     Unsupported {
         /// Its free motions.
         motions: Vec<FreeMotion>,
+    },
+    /// A plate can move without resistance.
+    #[error("nothing holds the plate: it is free to {}", motions.join(", to "))]
+    FreePlate {
+        /// Its free motions, about its middle.
+        motions: Vec<&'static str>,
     },
     /// No equilibrium was found.
     #[error(transparent)]

@@ -1,15 +1,14 @@
 //! Thin plates as structures: static deflection and natural frequencies of square plates, strips in
-//! large deflection. Meshes are strips of elements solved by the cyclic solver.
+//! large deflection, pressure that follows the surface.
 
 use std::f64::consts::PI;
 
-use ancf::element::{BendingRigidity, PlateQuadrature, SurfaceElement, ThinPlate};
-use ancf::linear::{BorderedMatrix, CyclicSolver, Solver, Structure};
+use ancf::element::{BendingRigidity, PlateQuadrature, ThinPlate};
+use ancf::linear::BorderedMatrix;
 use ancf::material::Isotropic;
-use ancf::mesh::Mesh;
-use ancf::quadrature::Rule;
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Mat, Par, Side};
+use ancf::statics::{Equilibrium, LoadSteps};
+use ancf::structure::{Edge, NodeVector, PlateStructure, StructureError};
+use ancf::system::{ForceLaw, Mechanics, State};
 
 const YOUNGS: f64 = 2e11;
 const DENSITY: f64 = 7800.0;
@@ -19,103 +18,6 @@ fn material(poisson_ratio: f64) -> Isotropic {
         youngs_modulus: YOUNGS,
         poisson_ratio,
         density: DENSITY,
-    }
-}
-
-/// A flat rectangle of `along x across` equal elements.
-struct Plate {
-    mesh: Mesh<ThinPlate>,
-    element: ThinPlate,
-    along: usize,
-    across: usize,
-    reference: Vec<f64>,
-    fixed: Vec<bool>,
-}
-
-impl Plate {
-    fn new(element: ThinPlate, along: usize, across: usize) -> Self {
-        let mut reference = Vec::new();
-        for i in 0..=along {
-            for j in 0..=across {
-                let (x, y) = (element.length() * i as f64, element.width() * j as f64);
-                reference.extend([x, y, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
-            }
-        }
-        Self {
-            mesh: Mesh::open_strip(vec![element.clone(); along * across], across),
-            element,
-            along,
-            across,
-            fixed: vec![false; reference.len()],
-            reference,
-        }
-    }
-
-    /// First coordinate of node (i, j).
-    fn at(&self, i: usize, j: usize) -> usize {
-        9 * (i * (self.across + 1) + j)
-    }
-
-    fn nodes(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let row = self.across + 1;
-        (0..(self.along + 1) * row).map(move |k| (k / row, k % row))
-    }
-
-    /// Fixes coordinate `axis` of vector `vector` (r, r_x, r_y) of node (i, j).
-    fn fix(&mut self, (i, j): (usize, usize), vector: usize, axis: usize) {
-        let at = self.at(i, j) + 3 * vector + axis;
-        self.fixed[at] = true;
-    }
-
-    fn structure(&self) -> Structure {
-        Structure {
-            sections: self.mesh.sections(),
-            block: self.mesh.section_dof(),
-            closed: false,
-            border: 0,
-        }
-    }
-
-    fn tangent(&self, q: &[f64]) -> BorderedMatrix {
-        let mut matrix = BorderedMatrix::new(self.structure());
-        self.mesh.add_tangent(q, q, 1.0, 0.0, &mut matrix);
-        matrix
-    }
-
-    /// Solves `matrix x = x` for the coordinates that are free.
-    fn solve(&self, mut matrix: BorderedMatrix, x: &mut [f64]) {
-        for (row, _) in self.fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
-            matrix.set_unit_row(row);
-            x[row] = 0.0;
-        }
-        let mut solver = CyclicSolver::new(self.structure());
-        solver.factor(&matrix).unwrap();
-        solver.solve(x);
-    }
-
-    /// Newton's method under loads that `add_load` adds to force and tangent, to corrections of 1e-11 m
-    /// (or of a slope).
-    fn equilibrium(
-        &self,
-        q: &mut [f64],
-        add_load: impl Fn(&[f64], &mut [f64], &mut BorderedMatrix),
-    ) {
-        for _ in 0..60 {
-            let mut change = vec![0.0; q.len()];
-            let mut matrix = self.tangent(q);
-            self.mesh.add_force(q, q, &mut change);
-            add_load(q, &mut change, &mut matrix);
-            self.solve(matrix, &mut change);
-            let mut largest = 0.0f64;
-            for (value, change) in q.iter_mut().zip(&change) {
-                *value += change;
-                largest = largest.max(change.abs());
-            }
-            if largest < 1e-11 {
-                return;
-            }
-        }
-        panic!("Newton's method does not converge");
     }
 }
 
@@ -133,35 +35,17 @@ const SIDE: f64 = 1.0;
 const THICKNESS: f64 = 0.01;
 
 /// A square plate of n x n elements that moves out of its plane only, nu = 0.3.
-fn square(n: usize, support: Support) -> Plate {
+fn square(n: usize, support: Support) -> PlateStructure {
     let side = SIDE / n as f64;
     let material = material(0.3);
     let element = ThinPlate::new(side, side, THICKNESS, &material, BendingRigidity::Kirchhoff);
-    let mut plate = Plate::new(element, n, n);
-    for node in plate.nodes() {
-        for (vector, axis) in (0..3).flat_map(|v| [(v, 0), (v, 1)]) {
-            plate.fix(node, vector, axis);
-        }
-        let (on_x_edge, on_y_edge) = (node.0 % n == 0, node.1 % n == 0);
-        match support {
-            Support::Simple => {
-                // No deflection along an edge: neither of its nodes nor of its slope.
-                for (on_edge, slope) in [(on_x_edge, 2), (on_y_edge, 1)] {
-                    if on_edge {
-                        plate.fix(node, 0, 2);
-                        plate.fix(node, slope, 2);
-                    }
-                }
-            }
-            Support::Clamped if on_x_edge || on_y_edge => {
-                (0..3).for_each(|vector| plate.fix(node, vector, 2));
-            }
-            Support::Cantilever if node.0 == 0 => {
-                (0..3).for_each(|vector| plate.fix(node, vector, 2));
-            }
-            _ => {}
-        }
-    }
+    let mut plate = PlateStructure::rectangle(element, n, n);
+    plate.bending_only();
+    match support {
+        Support::Simple => plate.support(Edge::ALL),
+        Support::Clamped => plate.clamp(Edge::ALL),
+        Support::Cantilever => plate.clamp([Edge::Start]),
+    };
     plate
 }
 
@@ -172,36 +56,19 @@ fn rigidity() -> f64 {
 /// Deflection of the middle over `q a⁴ / D` under the pressure q; linear. `lumped`: a quarter of the
 /// load of an element at each of its nodes, as in the published table; else the work of the pressure.
 fn deflection(n: usize, support: Support, lumped: bool) -> f64 {
-    let plate = square(n, support);
-    let area = (SIDE / n as f64).powi(2);
-    let mut weights = [0.0; 12];
+    let mut plate = square(n, support);
     if lumped {
-        for corner in 0..4 {
-            weights[3 * corner] = 0.25 * area;
-        }
-    } else {
-        // Shape functions are cubic in x and in y.
-        let rule = Rule::gauss(2.try_into().unwrap());
-        for (xi, a) in rule.points.iter().zip(&rule.weights) {
-            for (eta, b) in rule.points.iter().zip(&rule.weights) {
-                let mut shape = [0.0; 12];
-                plate.element.surface([*xi, *eta], &mut shape);
-                for k in 0..12 {
-                    weights[k] += a * b * area * shape[k];
-                }
+        let quarter = 0.25 * (SIDE / n as f64).powi(2);
+        for [i, j] in (0..n).flat_map(|i| (0..n).map(move |j| [i, j])) {
+            for corner in [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]] {
+                plate.force(corner, [0.0, 0.0, quarter]);
             }
         }
+    } else {
+        plate.pressure(1.0);
     }
-    let mut local = [0.0; 36];
-    for k in 0..12 {
-        local[3 * k + 2] = weights[k];
-    }
-    let mut x = vec![0.0; plate.reference.len()];
-    for element in 0..n * n {
-        plate.mesh.scatter(element, &local, &mut x);
-    }
-    plate.solve(plate.tangent(&plate.reference), &mut x);
-    x[plate.at(n / 2, n / 2) + 2] * rigidity() / SIDE.powi(4)
+    let displacements = plate.linear_displacements().unwrap();
+    plate.position(&displacements, [n / 2, n / 2])[2] * rigidity() / SIDE.powi(4)
 }
 
 /// Zienkiewicz (The Finite Element Method, table of the 12-term rectangle: central deflection of a square
@@ -244,40 +111,12 @@ fn square_plates_converge_to_the_series_with_the_square_of_the_size() {
     }
 }
 
-/// Natural frequencies `omega a² sqrt(rho h / D)`, lowest first, from the dense eigenvalue problem of the
-/// deflections.
+/// Natural frequencies `omega a² sqrt(rho h / D)`, lowest first.
 fn frequencies(n: usize, support: Support) -> Vec<f64> {
     let plate = square(n, support);
-    let mut mass = BorderedMatrix::new(plate.structure());
-    plate.mesh.add_mass(&mut mass);
-    let free: Vec<usize> = (0..plate.fixed.len())
-        .filter(|k| !plate.fixed[*k])
-        .collect();
-    let dense = |matrix: &BorderedMatrix| {
-        let mut place = vec![usize::MAX; plate.fixed.len()];
-        for (k, coordinate) in free.iter().enumerate() {
-            place[*coordinate] = k;
-        }
-        let mut dense = Mat::<f64>::zeros(free.len(), free.len());
-        for (row, column, value) in matrix.triplets() {
-            if place[row] != usize::MAX && place[column] != usize::MAX {
-                dense[(place[row], place[column])] = value;
-            }
-        }
-        dense
-    };
-    // K x = lambda M x with M = L L^T: eigenvalues of L^-1 K L^-T.
-    let mut stiffness = dense(&plate.tangent(&plate.reference));
-    let cholesky = dense(&mass).llt(Side::Lower).unwrap();
-    solve_lower_triangular_in_place(cholesky.L(), stiffness.as_mut(), Par::Seq);
-    let mut stiffness = stiffness.transpose().to_owned();
-    solve_lower_triangular_in_place(cholesky.L(), stiffness.as_mut(), Par::Seq);
-    let values = stiffness.self_adjoint_eigenvalues(Side::Lower).unwrap();
-    let scale = SIDE.powi(4) * DENSITY * THICKNESS / rigidity();
-    values
-        .into_iter()
-        .map(|value| (value * scale).sqrt())
-        .collect()
+    let modes = plate.modes(&plate.equilibrium().unwrap()).unwrap();
+    let scale = SIDE.powi(2) * (DENSITY * THICKNESS / rigidity()).sqrt();
+    modes.iter().map(|mode| mode.frequency * scale).collect()
 }
 
 /// Leissa (1973): simply supported `(m² + n²) pi²`; clamped and cantilever (nu = 0.3). Within 1 % at
@@ -323,7 +162,7 @@ struct Strip {
 }
 
 impl Strip {
-    fn plate(&self) -> Plate {
+    fn plate(&self) -> PlateStructure {
         let element = ThinPlate::new(
             LENGTH / self.along as f64,
             STRIP_WIDTH / self.across as f64,
@@ -332,17 +171,33 @@ impl Strip {
             BendingRigidity::Kirchhoff,
         )
         .with_quadrature(self.quadrature);
-        let mut plate = Plate::new(element, self.along, self.across);
-        for node in plate.nodes() {
-            for (vector, axis) in (0..3).flat_map(|v| [(v, 0), (v, 1), (v, 2)]) {
-                let at_root = node.0 == 0 && (vector, axis) != (1, 0);
-                let out_of_plane = self.cylindrical && (vector == 2 || axis == 1);
-                if at_root || out_of_plane {
-                    plate.fix(node, vector, axis);
+        let mut plate = PlateStructure::rectangle(element, self.along, self.across);
+        plate.clamp([Edge::Start]).load_steps(LoadSteps {
+            steps: 10,
+            halvings: 6,
+            tolerance: 1e-9 * LENGTH,
+            max_iterations: 60,
+        });
+        if self.cylindrical {
+            for node in plate.nodes() {
+                for axis in 0..3 {
+                    plate.hold(node, NodeVector::Across, axis);
+                }
+                for vector in [NodeVector::Position, NodeVector::Along] {
+                    plate.hold(node, vector, 1);
                 }
             }
         }
         plate
+    }
+
+    fn bent(&self, load: impl Fn(&mut PlateStructure)) -> (PlateStructure, Equilibrium) {
+        let mut plate = self.plate();
+        load(&mut plate);
+        let bent = plate
+            .equilibrium()
+            .unwrap_or_else(|error| panic!("{error}"));
+        (plate, bent)
     }
 
     /// E I.
@@ -351,64 +206,17 @@ impl Strip {
     }
 }
 
-/// Adds a moment about y, spread evenly over the end of the plate: `m d(theta) dy` at Gauss points, theta the
-/// angle of r_x to the x axis. To the matrix minus its derivative.
-fn add_end_moment(
-    plate: &Plate,
-    moment: f64,
-    q: &[f64],
-    force: &mut [f64],
-    matrix: &mut BorderedMatrix,
-) {
-    let rule = Rule::gauss(4.try_into().unwrap());
-    for last in (plate.along - 1) * plate.across..plate.along * plate.across {
-        let mut e = [0.0; 36];
-        plate.mesh.gather(last, q, &mut e);
-        let places: Vec<usize> = (0..4)
-            .flat_map(|k| {
-                let first = 9 * plate.mesh.node(last, k);
-                [first, first + 3, first + 6]
-            })
-            .collect();
-        for (eta, weight) in rule.points.iter().zip(&rule.weights) {
-            let (mut by_x, mut by_y) = ([0.0; 12], [0.0; 12]);
-            let place = [1.0, *eta];
-            plate.element.surface_slopes(place, &mut by_x, &mut by_y);
-            let [a, _, b] = plate.element.surface_gradient(&e, place).x;
-            let square = a * a + b * b;
-            let m = moment * weight / (square * plate.across as f64);
-            let cross = 2.0 * m * a * b / square;
-            let difference = m * (a * a - b * b) / square;
-            for (k, row) in places.iter().enumerate() {
-                force[*row] -= by_x[k] * m * b;
-                force[*row + 2] += by_x[k] * m * a;
-                for (l, column) in places.iter().enumerate() {
-                    let share = by_x[k] * by_x[l];
-                    matrix.add(*row, *column, -share * cross);
-                    matrix.add(*row, *column + 2, share * difference);
-                    matrix.add(*row + 2, *column, share * difference);
-                    matrix.add(*row + 2, *column + 2, share * cross);
-                }
-            }
-        }
-    }
-}
-
 /// Angle by which a strip's tip has turned beyond a full circle under the moment `2 pi E I / L`, and the
 /// tip's place.
 fn rolled(strip: &Strip) -> [f64; 3] {
-    let plate = strip.plate();
-    let mut q = plate.reference.clone();
-    let steps = 10;
-    for step in 1..=steps {
-        let turn = 2.0 * PI * f64::from(step) / f64::from(steps);
-        let moment = turn * strip.rigidity() / LENGTH;
-        plate.equilibrium(&mut q, |q, force, matrix| {
-            add_end_moment(&plate, moment, q, force, matrix);
-        });
-    }
-    let tip = plate.at(strip.along, 0);
-    [q[tip + 5].atan2(q[tip + 3]), q[tip], q[tip + 2]]
+    let moment = 2.0 * PI * strip.rigidity() / (LENGTH * STRIP_WIDTH);
+    let (plate, bent) = strip.bent(|plate| {
+        plate.end_moment(moment);
+    });
+    let tip = [strip.along, 0];
+    let [x, _, z] = plate.position(&bent.q, tip);
+    let slope = plate.vector(&bent.q, tip, NodeVector::Along);
+    [slope[2].atan2(slope[0]), x, z]
 }
 
 /// Strips of h = L / 100 unless a test says otherwise.
@@ -495,21 +303,21 @@ fn the_quadrature_is_fine_enough() {
 /// Place of the tip of a cantilever strip with free edges under the tip force `10 E I / L²`: shortening
 /// and deflection over L.
 fn elastica(strip: &Strip) -> [f64; 2] {
-    let plate = strip.plate();
-    let mut q = plate.reference.clone();
-    for step in 1..=10 {
-        let load = strip.rigidity() / LENGTH.powi(2) * f64::from(step);
-        plate.equilibrium(&mut q, |_, force, _| {
-            // The end's deflection is cubic in y: the work of an even load on r and on r_y.
-            for (j, sign) in [(0, 1.0), (1, -1.0)] {
-                let tip = plate.at(strip.along, j);
-                force[tip + 2] += 0.5 * load;
-                force[tip + 8] += sign * load * STRIP_WIDTH / 12.0;
-            }
-        });
-    }
-    let tip = plate.at(strip.along, 0);
-    [1.0 - q[tip] / LENGTH, q[tip + 2] / LENGTH]
+    let load = 10.0 * strip.rigidity() / LENGTH.powi(2);
+    let (plate, bent) = strip.bent(|plate| {
+        // The end's deflection is cubic in y: the work of an even load on r and on r_y.
+        for (j, sign) in [(0, 1.0), (1, -1.0)] {
+            let tip = [strip.along, j];
+            plate.force(tip, [0.0, 0.0, 0.5 * load]).slope_force(
+                tip,
+                NodeVector::Across,
+                2,
+                sign * load * STRIP_WIDTH / 12.0,
+            );
+        }
+    });
+    let [x, _, z] = plate.position(&bent.q, [strip.along, 0]);
+    [1.0 - x / LENGTH, z / LENGTH]
 }
 
 /// Mattiasson (1981), elliptic integrals, `F L² / E I = 10`: 0.55500 and 0.81061. The plate stretches and so
@@ -532,4 +340,114 @@ fn a_strip_under_a_tip_force_is_the_elastica() {
         let ratio = (coarse[i] - middle[i]) / (middle[i] - fine[i]);
         assert!(ratio > 16.0, "{ratio}");
     }
+}
+
+/// Pressure and an end moment on a plate in an arbitrary state: the tangent is the
+/// derivative of the forces (central differences of 1e-5; the loads are at most cubic in the step, the moment's
+/// third derivative is of the order of the moment: 1e-10, and round-off 1e-11 of the largest force).
+#[test]
+fn the_tangent_of_loads_is_their_derivative() {
+    let element = ThinPlate::new(0.3, 0.2, 0.01, &material(0.3), BendingRigidity::None);
+    let mut plate = PlateStructure::rectangle(element, 2, 2);
+    plate.pressure(3.0).end_moment(2.0);
+    let mut system = plate.build().unwrap();
+    let q: Vec<f64> = (plate.drawn().iter().enumerate())
+        .map(|(i, x)| x + 0.2 * (7.0 * i as f64).sin())
+        .collect();
+    let v = vec![0.0; q.len()];
+    let mut matrix = BorderedMatrix::new(system.structure());
+    let state = State {
+        time: 0.0,
+        q: &q,
+        v: &v,
+    };
+    system.law.add_tangent(state, 1.0, 0.0, &mut matrix);
+    let mut tangent = vec![vec![0.0; q.len()]; q.len()];
+    for (row, column, value) in matrix.triplets() {
+        tangent[row][column] += value;
+    }
+    let mut force = |q: &[f64]| {
+        let mut force = vec![0.0; q.len()];
+        let state = State {
+            time: 0.0,
+            q,
+            v: &v,
+        };
+        system.law.add_force(state, &mut force);
+        force
+    };
+    let step = 1.0e-5;
+    for column in 0..q.len() {
+        let moved = |by: f64| {
+            let mut q = q.clone();
+            q[column] += by;
+            q
+        };
+        let (ahead, behind) = (force(&moved(step)), force(&moved(-step)));
+        for row in 0..q.len() {
+            let difference = (behind[row] - ahead[row]) / (2.0 * step);
+            assert!(
+                (difference - tangent[row][column]).abs() < 1e-7,
+                "{row} {column}: {difference} {}",
+                tangent[row][column]
+            );
+        }
+    }
+}
+
+/// A flat plate turned by a quarter about x takes its pressure along: all forces together are the area times
+/// the pressure along -y.
+#[test]
+fn pressure_follows_the_surface() {
+    let element = ThinPlate::new(0.3, 0.2, 0.01, &material(0.3), BendingRigidity::None);
+    let mut plate = PlateStructure::rectangle(element, 3, 2);
+    plate.pressure(5.0);
+    let mut system = plate.build().unwrap();
+    let turned: Vec<f64> = (plate.drawn().chunks_exact(3))
+        .flat_map(|r| [r[0], -r[2], r[1]])
+        .collect();
+    let rest = vec![0.0; turned.len()];
+    let mut force = vec![0.0; turned.len()];
+    let (q, v) = (&turned, &rest);
+    system.force(State { time: 0.0, q, v }, &mut force);
+    let mut sum = [0.0; 3];
+    for node in force.chunks_exact(9) {
+        (0..3).for_each(|axis| sum[axis] += node[axis]);
+    }
+    let total = 5.0 * 0.9 * 0.4;
+    for (value, expected) in sum.into_iter().zip([0.0, -total, 0.0]) {
+        assert!((value - expected).abs() < 1e-12, "{sum:?}");
+    }
+}
+
+/// What holds nothing and what does not exist is told by node.
+#[test]
+fn wrong_plates_are_told() {
+    let element = || ThinPlate::new(0.5, 0.5, 0.01, &material(0.3), BendingRigidity::Kirchhoff);
+    let mut free = PlateStructure::rectangle(element(), 2, 2);
+    free.pressure(1.0);
+    let text = free.equilibrium().unwrap_err().to_string();
+    assert!(text.ends_with("move along x, to move along y, to move along z, to turn about x, to turn about y, to turn about z"), "{text}");
+    let mut hinged = PlateStructure::rectangle(element(), 2, 2);
+    hinged.pressure(1.0);
+    for node in hinged.edge(Edge::Start) {
+        for axis in 0..3 {
+            hinged.hold(node, NodeVector::Position, axis);
+        }
+    }
+    let text = hinged.equilibrium().unwrap_err().to_string();
+    assert!(
+        text.contains("turn about y") && !text.contains("along x"),
+        "{text}"
+    );
+
+    let mut beyond = PlateStructure::rectangle(element(), 2, 2);
+    beyond.clamp([Edge::Start]).force([3, 0], [0.0, 0.0, 1.0]);
+    assert_eq!(
+        beyond.equilibrium().unwrap_err(),
+        StructureError::NoPlateNode {
+            node: [3, 0],
+            last: [2, 2]
+        }
+    );
 }

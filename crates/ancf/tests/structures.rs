@@ -161,13 +161,9 @@ fn a_body_on_the_tip_loads_the_beam() {
     }
 }
 
-/// A ring of 24 curved elements without stress, clamped at the first node and pulled at the opposite one:
-/// the joint as a shared node and by multipliers give the same shape.
-#[test]
-fn the_joint_of_a_ring_may_be_shared_or_held_by_multipliers() {
-    let count = 24;
-    let radius = 0.5;
-    let section = PlanarSection::rectangle(0.02, 0.02);
+/// A ring of `count` curved elements without stress and of square section, its nodes evenly on a circle.
+fn ring(count: usize, radius: f64, height: f64) -> PlanarStructure<CubicBeam2> {
+    let section = PlanarSection::rectangle(height, height);
     let place = |i: usize| {
         let (sine, cosine) = (TAU * (i % count) as f64 / count as f64).sin_cos();
         [
@@ -188,9 +184,49 @@ fn the_joint_of_a_ring_may_be_shared_or_held_by_multipliers() {
             CubicBeam2::curved(&ends, arc, &section, &STEEL).expect("it is thin")
         })
         .collect();
+    let mut ring = PlanarStructure::with_nodes(elements, coordinates);
+    ring.join_ends();
+    ring
+}
+
+/// A ring pulled apart by two opposite forces widens by `F R³/(E I) [pi/4 (1 - a + b) - 2/pi (1 - a)²]`,
+/// `a = I/(A R²)`, `b = E I/(G A R²)` (Timoshenko; no shear correction in this element), up to `(h/R)²` of a
+/// straight beam's law. Fully integrated curved elements are far too stiff in membrane and shear while
+/// `l² > R h`, here up to 25 elements, and lose the error fast from there on: by more than 2² per halving.
+#[test]
+fn a_ring_of_curved_elements_tends_to_the_ring_formula() {
+    let (radius, height, force) = (0.5, 0.02, 1.0e-3);
+    let widening = |count: usize| {
+        let mut ring = ring(count, radius, height);
+        ring.pin(0).roller(count / 2, [0.0, 1.0]);
+        ring.force(count / 2, [force, 0.0]);
+        ring.position(&solve(&ring).q, count / 2)[0] + radius
+    };
+    let stiffness = STEEL.youngs_modulus * height.powi(4) / 12.0;
+    let a = (height / radius).powi(2) / 12.0;
+    let b = a * STEEL.youngs_modulus / STEEL.shear_modulus();
+    let factor = PI / 4.0 * (1.0 - a + b) - 2.0 / PI * (1.0 - a).powi(2);
+    let exact = force * radius.powi(3) / stiffness * factor;
+    let errors = [32, 64, 128].map(|count| (widening(count) / exact - 1.0).abs());
+    assert!(errors[2] < (height / radius).powi(2), "{errors:?}");
+    assert!(
+        errors[0] > 4.0 * errors[1] && errors[1] > 4.0 * errors[2],
+        "{errors:?}"
+    );
+    assert!(
+        widening(8) < 0.1 * exact,
+        "it locks as long as l² is far beyond R h"
+    );
+}
+
+/// A ring of 24 curved elements, clamped at the first node and pulled at the opposite one: the joint as a
+/// shared node and by multipliers give the same shape.
+#[test]
+fn the_joint_of_a_ring_may_be_shared_or_held_by_multipliers() {
+    let (count, radius) = (24, 0.5);
     let shapes = FORMS.map(|form| {
-        let mut ring = PlanarStructure::with_nodes(elements.clone(), coordinates.clone());
-        ring.join_ends().clamp(0).constraint_form(form);
+        let mut ring = ring(count, radius, 0.02);
+        ring.clamp(0).constraint_form(form);
         ring.force(count / 2, [-2000.0, 500.0]);
         let bent = solve(&ring);
         (0..=count)

@@ -14,6 +14,7 @@ use ancf::material::Isotropic;
 use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 use ancf::section::PlanarSection;
+use ancf::statics::Hold;
 use ancf::system::{self, Mechanics, RigidCoordinate, System};
 use thiserror::Error;
 
@@ -191,8 +192,8 @@ fn stretch_under(load: f64) -> f64 {
     f
 }
 
-/// A drive ready to settle and run. Its pulleys have neither friction nor external torques until
-/// [`Assembly::release`].
+/// A drive ready to settle and run. Its pulleys have neither friction nor external torques, and their hubs
+/// stand still, until [`Assembly::release`].
 #[derive(Debug)]
 pub struct Assembly<E, L = BeltContact> {
     /// The mechanical system.
@@ -207,6 +208,9 @@ pub struct Assembly<E, L = BeltContact> {
     pub warnings: Vec<Warning>,
     /// Material coordinate of the first node of each element [m].
     pub element_start: Vec<f64>,
+    /// What holds the belt while it settles: without friction nothing but the places of the contact points says
+    /// where it rests along itself.
+    pub holds: Vec<Hold>,
 }
 
 /// Belt elements that a drive file can ask for.
@@ -274,6 +278,7 @@ impl<E: BeltElementType> Assembly<E> {
             system: system(drive, &layout, mesh),
             motion: on_path::<E>(drive, &layout, &mounting, &starts),
             warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
+            holds: vec![hold_along(drive, &layout, 0)],
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),
@@ -294,6 +299,7 @@ impl<E: BeltElementType> Assembly<E> {
             system: system(drive, &layout, Mesh::closed(elements)),
             motion: on_path::<E>(drive, &layout, &mounting, starts),
             warnings: Vec::new(),
+            holds: vec![hold_along(drive, &layout, 0)],
             element_start: starts.iter().map(|s| s * mounting.length).collect(),
             layout,
             mounting,
@@ -327,7 +333,7 @@ impl<E: BeltElementType> Assembly<E> {
         Ok(())
     }
 
-    /// Lets the friction of `drive` and the external torques act.
+    /// Lets the friction of `drive` and the external torques act, and the hubs move.
     pub fn release(&mut self, drive: &Drive) {
         let laws = drive
             .pulley
@@ -336,6 +342,8 @@ impl<E: BeltElementType> Assembly<E> {
         self.system.law.set_friction(laws);
         for (contact, pulley) in self.system.law.pulleys.iter_mut().zip(&drive.pulley) {
             contact.external = pulley.external_torque();
+            contact.center = pulley.center;
+            contact.displacement.clone_from(&pulley.displacement);
         }
     }
 }
@@ -384,6 +392,23 @@ fn points_of(contact: &Contact, count: usize) -> Rule {
     }
 }
 
+/// Holds the vector from coordinate `first` on along the path at the first node, by the axial stiffness of an
+/// element: what is left to hold, the difference that the mesh makes, moves it by next to nothing.
+fn hold_along(drive: &Drive, layout: &Layout, first: usize) -> Hold {
+    let [x, y] = layout.point(drive.belt.first_node).tangent;
+    Hold {
+        first,
+        direction: [x, y, 0.0],
+        stiffness: hold_stiffness(drive, layout),
+    }
+}
+
+/// Axial stiffness of an element of the belt [N/m].
+fn hold_stiffness(drive: &Drive, layout: &Layout) -> f64 {
+    let belt = &drive.belt;
+    belt.youngs_modulus * belt.width * belt.thickness * belt.elements as f64 / layout.length
+}
+
 /// The belt evenly stretched on its path, at rest, its nodes at the parts `starts` of it.
 fn on_path<E: LineElement>(
     drive: &Drive,
@@ -409,9 +434,10 @@ fn on_path<E: LineElement>(
 }
 
 fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &layout::Arc) -> ContactPulley {
+    let [x, y, _] = pulley.middle(0.0);
     ContactPulley {
-        center: pulley.center,
-        displacement: pulley.displacement.clone(),
+        center: [x, y],
+        displacement: None,
         radius: pulley.radius,
         friction: Law::Frictionless(Frictionless),
         // The section's slope points to the left of the path: to the centre of a pulley that the path

@@ -64,7 +64,7 @@ pub fn spring_free(drive: &Drive) -> Result<FreeBelt, FreeBeltError> {
         max_iterations: 500,
     };
     let mesh = belt.mesh().clone();
-    settle_watched(&mut belt, 0.0, &mut q, settle, &mut |_, q| {
+    settle_watched(&mut belt, 0.0, &mut q, &[], settle, &mut |_, q| {
         shapes.push(shape(&mesh, q));
         ControlFlow::Continue(())
     })?;

@@ -361,6 +361,7 @@ pub(crate) fn settle_on_pulleys<E: Element, L: PulleyLaw<E>>(
         &mut assembly.system,
         0.0,
         &mut assembly.motion.q,
+        &assembly.holds,
         Settle {
             shift: drive.contact.stiffness / drive.contact_mass(),
             shrink: 0.3,

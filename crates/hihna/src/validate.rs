@@ -22,6 +22,7 @@ mod other_drives;
 mod pendulum;
 mod planar_beams;
 mod plate_belt;
+mod plates;
 mod ring_down;
 mod selection;
 mod spin_up;
@@ -90,6 +91,9 @@ const COMPUTATIONS: &[(&str, Compute)] = &[
         "chapter-4-plate/figures-4.12-4.18",
         plate_belt::figures_4_12_to_4_18,
     ),
+    ("plates/square", plates::square_plate),
+    ("plates/frequencies", plates::frequencies),
+    ("plates/strips", plates::strips),
 ];
 
 /// The data files, in the order of the program's output.
@@ -98,6 +102,7 @@ const DATA: &[&str] = &[
     include_str!("../../../validation/chapter-3.toml"),
     include_str!("../../../validation/chapter-4-analytical.toml"),
     include_str!("../../../validation/chapter-4-plate.toml"),
+    include_str!("../../../validation/plates.toml"),
 ];
 
 /// Why a case could not be computed: all its judged rows fail.

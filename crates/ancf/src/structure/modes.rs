@@ -24,11 +24,10 @@ use faer::{Mat, MatRef, Par, Side};
 
 use super::{PlanarStructure, StructureError};
 use crate::constraint::ConstraintSet;
-use crate::element::LineElement;
+use crate::element::{Element, LineElement};
 use crate::linear::BorderedMatrix;
-use crate::loads::Loads;
 use crate::statics::{Equilibrium, Loaded};
-use crate::system::{Mechanics, State, System};
+use crate::system::{ForceLaw, Mechanics, State, System};
 
 /// A natural motion `exp((growth + i frequency) t)`.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,46 +46,64 @@ impl<E: LineElement> PlanarStructure<E> {
     /// relative to it. A free structure has three with frequencies that are rounding errors.
     pub fn modes(&self, equilibrium: &Equilibrium) -> Result<Vec<Mode>, StructureError> {
         let mut system = self.build()?;
-        let reduced = Reduced::new(&mut system, equilibrium);
-        let mass =
-            Llt::new(reduced.mass.as_ref(), Side::Lower).map_err(|_| StructureError::Modes)?;
-        let free = reduced.mass.nrows();
-        let mut inverse = Mat::<f64>::identity(free, free);
-        solve_lower_triangular_in_place(mass.L(), inverse.as_mut(), Par::Seq);
-        let stiffness = &inverse * &reduced.stiffness * inverse.transpose();
-        let eigen = SelfAdjointEigen::new(stiffness.as_ref(), Side::Lower)
-            .map_err(|_| StructureError::Modes)?;
-        let vectors = inverse.transpose() * eigen.U();
-        let squares: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
-        let mut modes = match &reduced.gyroscopic {
-            None => plain(&squares, (&reduced.basis * &vectors).as_ref()),
-            Some(gyroscopic) => {
-                let coupling = vectors.transpose() * gyroscopic * &vectors;
-                let shapes = &reduced.basis * &vectors;
-                with_gyroscopic(&squares, coupling.as_ref(), shapes.as_ref())?
-            }
-        };
-        modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
-        Ok(modes)
+        let turns = system.law.frame.is_some();
+        natural_modes(&mut system, equilibrium, turns)
     }
+}
+
+/// All modes of a system under its whole load, by rising frequency. `gyroscopic`: forces depend on velocities.
+pub(super) fn natural_modes<E: Element, L: ForceLaw>(
+    system: &mut System<E, L>,
+    equilibrium: &Equilibrium,
+    gyroscopic: bool,
+) -> Result<Vec<Mode>, StructureError>
+where
+    System<E, L>: Loaded,
+{
+    let reduced = Reduced::new(system, equilibrium, gyroscopic);
+    let mass = Llt::new(reduced.mass.as_ref(), Side::Lower).map_err(|_| StructureError::Modes)?;
+    let free = reduced.mass.nrows();
+    let mut inverse = Mat::<f64>::identity(free, free);
+    solve_lower_triangular_in_place(mass.L(), inverse.as_mut(), Par::Seq);
+    let stiffness = &inverse * &reduced.stiffness * inverse.transpose();
+    let eigen = SelfAdjointEigen::new(stiffness.as_ref(), Side::Lower)
+        .map_err(|_| StructureError::Modes)?;
+    let vectors = inverse.transpose() * eigen.U();
+    let shapes = reduced.basis.times(&vectors);
+    let squares: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
+    let mut modes = match &reduced.gyroscopic {
+        None => plain(&squares, shapes.as_ref()),
+        Some(gyroscopic) => {
+            let coupling = vectors.transpose() * gyroscopic * &vectors;
+            with_gyroscopic(&squares, coupling.as_ref(), shapes.as_ref())?
+        }
+    };
+    modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    Ok(modes)
 }
 
 /// Matrices of the independent coordinates.
 struct Reduced {
-    /// Z.
-    basis: Mat<f64>,
+    basis: Basis,
     mass: Mat<f64>,
     stiffness: Mat<f64>,
     gyroscopic: Option<Mat<f64>>,
 }
 
 impl Reduced {
-    fn new<E: LineElement>(system: &mut System<E, Loads>, equilibrium: &Equilibrium) -> Self {
+    fn new<E: Element, L: ForceLaw>(
+        system: &mut System<E, L>,
+        equilibrium: &Equilibrium,
+        gyroscopic: bool,
+    ) -> Self
+    where
+        System<E, L>: Loaded,
+    {
         system.set_load_factor(1.0);
         let structure = system.structure();
         let constraints = system.constraints();
         let size = structure.size() - constraints.map_or(0, ConstraintSet::multipliers);
-        let basis = basis(system, &equilibrium.q, size);
+        let basis = Basis::new(system, &equilibrium.q, size);
         let rest = vec![0.0; structure.size()];
         let state = State {
             time: 0.0,
@@ -94,22 +111,14 @@ impl Reduced {
             v: &rest,
         };
         let mut matrix = BorderedMatrix::new(structure);
-        let project = |matrix: &BorderedMatrix| {
-            let mut full = Mat::<f64>::zeros(size, size);
-            for (row, column, value) in matrix.triplets() {
-                if row < size && column < size {
-                    full[(row, column)] += value;
-                }
-            }
-            basis.transpose() * full * &basis
-        };
+        let project = |matrix: &BorderedMatrix| basis.project(matrix);
         let mass = project(system.mass());
         system.add_tangent(state, 1.0, 0.0, &mut matrix);
         if let Some(constraints) = system.constraints().filter(|set| set.multipliers() > 0) {
             constraints.complete_matrix(&equilibrium.q, &equilibrium.multipliers, 1.0, &mut matrix);
         }
         let stiffness = project(&matrix);
-        let gyroscopic = system.law.frame.is_some().then(|| {
+        let gyroscopic = gyroscopic.then(|| {
             matrix.clear();
             system.add_tangent(state, 0.0, 1.0, &mut matrix);
             project(&matrix)
@@ -123,30 +132,73 @@ impl Reduced {
     }
 }
 
-/// Z: what unit velocities of the independent coordinates make of all.
-fn basis<E: LineElement>(system: &System<E, Loads>, q: &[f64], size: usize) -> Mat<f64> {
-    let dependents = system
-        .constraints()
-        .map_or_else(Vec::new, ConstraintSet::dependents);
-    let independent: Vec<usize> = (0..size).filter(|i| !dependents.contains(i)).collect();
-    let velocity = |unit: Option<usize>| {
-        let mut q = q.to_vec();
-        let (mut v, mut a) = (vec![0.0; q.len()], vec![0.0; q.len()]);
-        if let Some(unit) = unit {
-            v[unit] = 1.0;
+/// Z by rows, most of which have one entry: what unit velocities of the independent coordinates make of each.
+struct Basis {
+    rows: Vec<Vec<(usize, f64)>>,
+    /// Number of independent coordinates.
+    columns: usize,
+}
+
+impl Basis {
+    fn new<E: Element, L: ForceLaw>(system: &System<E, L>, q: &[f64], size: usize) -> Self {
+        let dependents = system
+            .constraints()
+            .map_or_else(Vec::new, ConstraintSet::dependents);
+        let mut free = vec![true; size];
+        for index in (system.prescribed().iter().map(|(index, _)| *index)).chain(dependents) {
+            free[index] = false;
         }
-        system.prescribe(0.0, &mut q, &mut v, &mut a);
-        v
-    };
-    let still = velocity(None);
-    let mut basis = Mat::<f64>::zeros(size, independent.len());
-    for (column, unit) in independent.iter().enumerate() {
-        let moved = velocity(Some(*unit));
-        for row in 0..size {
-            basis[(row, column)] = moved[row] - still[row];
+        let independent: Vec<usize> = (0..size).filter(|i| free[*i]).collect();
+        let velocity = |unit: Option<usize>| {
+            let mut q = q.to_vec();
+            let (mut v, mut a) = (vec![0.0; q.len()], vec![0.0; q.len()]);
+            if let Some(unit) = unit {
+                v[unit] = 1.0;
+            }
+            system.prescribe(0.0, &mut q, &mut v, &mut a);
+            v
+        };
+        let still = velocity(None);
+        let mut rows = vec![Vec::new(); size];
+        for (column, unit) in independent.iter().enumerate() {
+            let moved = velocity(Some(*unit));
+            for (row, entries) in rows.iter_mut().enumerate() {
+                let value = moved[row] - still[row];
+                if value != 0.0 {
+                    entries.push((column, value));
+                }
+            }
+        }
+        Self {
+            rows,
+            columns: independent.len(),
         }
     }
-    basis
+
+    /// `Z^T A Z`.
+    fn project(&self, matrix: &BorderedMatrix) -> Mat<f64> {
+        let mut projected = Mat::<f64>::zeros(self.columns, self.columns);
+        let size = self.rows.len();
+        for (row, column, value) in matrix.triplets() {
+            if row < size && column < size {
+                for (i, left) in &self.rows[row] {
+                    for (j, right) in &self.rows[column] {
+                        projected[(*i, *j)] += left * value * right;
+                    }
+                }
+            }
+        }
+        projected
+    }
+
+    /// `Z A`.
+    fn times(&self, vectors: &Mat<f64>) -> Mat<f64> {
+        Mat::from_fn(self.rows.len(), vectors.ncols(), |row, column| {
+            (self.rows[row].iter())
+                .map(|(k, value)| value * vectors[(*k, column)])
+                .sum()
+        })
+    }
 }
 
 /// Modes from eigenvalues omega² and shapes column by column.

@@ -1,13 +1,14 @@
 //! From a drive to a belt of plates: the same path, drawn in space with the belt's width along z.
 
-use ancf::constraint::Constant;
 use ancf::dynamics::Motion;
 use ancf::element::{BendingRigidity, Element, ThinPlate};
 use ancf::mesh::Mesh;
+use ancf::statics::Hold;
 use ancf::system::System;
 
 use super::{
-    Assembly, AssemblyError, Mounting, closable, coarse_mesh, material, penalty, rotor, rule,
+    Assembly, AssemblyError, Mounting, closable, coarse_mesh, hold_along, hold_stiffness, material,
+    penalty, rotor, rule,
 };
 use crate::contact::surface::{SurfaceContact, SurfacePulley};
 use crate::drive::{Belt, Drive, PlateBending, Pulley};
@@ -19,10 +20,9 @@ use crate::profile::Profile;
 pub type PlateAssembly = Assembly<ThinPlate, SurfaceContact>;
 
 impl PlateAssembly {
-    /// Puts `drive` together. Until [`PlateAssembly::release_plates`] the first section's node nearest to the
-    /// middle is held along the path: without friction nothing but the places of the contact points says
-    /// where the belt rests along itself. On pulleys that are not cylinders about z in the plane of the
-    /// drive, all these nodes are held in their plane, too: without friction such a belt would slip off.
+    /// Puts `drive` together. While the belt settles, the first section's node nearest to the middle is held along
+    /// the path. On pulleys that are not cylinders about z in the plane of the drive, all these nodes are held
+    /// in their plane, too: without friction such a belt would slip off.
     pub fn of_plates(drive: &Drive) -> Result<Self, AssemblyError> {
         let layout = Layout::of(drive)?;
         let mounting = Mounting::new(drive, &layout)?;
@@ -30,37 +30,43 @@ impl PlateAssembly {
         let contraction = contraction(&drive.belt, &mounting)?;
         let count = drive.belt.elements;
         let length = mounting.length / count as f64;
-        let motion = on_path(drive, &layout, &mounting, contraction);
+        let mut system = system(drive, length);
+        for (contact, pulley) in system.law.pulleys.iter_mut().zip(&drive.pulley) {
+            contact.center = pulley.middle(0.0);
+            contact.displacement = None;
+        }
         let middle = drive.belt.elements_across / 2 * ThinPlate::NODE_DOF;
-        let [x, y] = layout.point(drive.belt.first_node).tangent;
-        let along = middle + usize::from(x.abs() < y.abs());
-        let mut system =
-            system(drive, length).following(along, Box::new(Constant(motion.q[along])));
+        let mut holds = vec![hold_along(drive, &layout, middle)];
         if drive.pulley.iter().any(Pulley::is_misaligned) {
             let row = system.mesh().section_dof();
-            for section in 0..count {
-                let height = section * row + middle + 2;
-                system = system.following(height, Box::new(Constant(motion.q[height])));
-            }
+            let stiffness = hold_stiffness(drive, &layout);
+            holds.extend((0..count).map(|section| Hold {
+                first: section * row + middle,
+                direction: [0.0, 0.0, 1.0],
+                stiffness,
+            }));
         }
         Ok(Self {
+            motion: on_path(drive, &layout, &mounting, contraction),
             system,
-            motion,
             warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),
+            holds,
         })
     }
 
-    /// Lets the belt go, and the friction of `drive` and the external torques act.
+    /// Lets the friction of `drive` and the external torques act, and the hubs move.
     pub fn release_plates(&mut self, drive: &Drive) {
-        self.system = system(drive, self.mounting.length / drive.belt.elements as f64);
         let laws = drive.pulley.iter();
         let law = &mut self.system.law;
         law.set_friction(laws.map(|pulley| Law::new(drive.friction_on(pulley), pulley.grip())));
         for (contact, pulley) in law.pulleys.iter_mut().zip(&drive.pulley) {
             contact.external = pulley.external_torque();
+            let [x, y] = pulley.center;
+            contact.center = [x, y, pulley.offset];
+            contact.displacement.clone_from(&pulley.displacement);
         }
     }
 }
