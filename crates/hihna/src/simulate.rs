@@ -231,7 +231,10 @@ fn spatial<E: SpaceBeltElement>(
         drive,
         observer,
         || SpaceBeamAssembly::<E>::of_beams(drive),
-        |assembly| assembly.release_beams(drive),
+        |assembly| {
+            assembly.release_beams(drive);
+            Ok(())
+        },
     )
 }
 

@@ -1,17 +1,17 @@
 //! From a drive to a belt of spatial beams: flat on its faces, or a V-belt whose flanks lie in grooves.
 
-use ancf::constraint::Constant;
 use ancf::dynamics::Motion;
 use ancf::element::{BeltBeam3, LineElement, LinearBeam3};
 use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
 use ancf::section::{SpatialSection, Trapezoid};
+use ancf::statics::Hold;
 use ancf::system::System;
 
 use super::plates::surface_pulley;
 use super::{
-    Assembly, AssemblyError, Mounting, closable, coarse_mesh, material, penalty, points_of, rotor,
-    rule,
+    Assembly, AssemblyError, Mounting, closable, coarse_mesh, hold_along, hold_stiffness, material,
+    penalty, points_of, rotor, rule,
 };
 use crate::contact::surface::{Face, Groove, SurfaceContact, SurfacePulley};
 use crate::drive::{Belt, Drive, Pulley};
@@ -60,30 +60,33 @@ fn softened(section: &SpatialSection, factor: f64) -> SpatialSection {
 }
 
 impl<E: SpaceBeltElement> SpaceBeamAssembly<E> {
-    /// Puts `drive` together. Until [`SpaceBeamAssembly::release_beams`] the first node is held along the path:
-    /// without friction nothing but the places of the contact points says where the belt rests along itself. Where no
-    /// groove guides it and a pulley is not a cylinder about z in the plane of the drive, all nodes are held in their
-    /// plane, too: without friction such a belt would slip off.
+    /// Puts `drive` together. While the belt settles, its first node is held along the path. Where no groove guides it
+    /// and a pulley is not a cylinder about z in the plane of the drive, all nodes are held in their plane, too:
+    /// without friction such a belt would slip off.
     pub fn of_beams(drive: &Drive) -> Result<Self, AssemblyError> {
         let layout = Layout::of(drive)?;
         let mounting = Mounting::new(drive, &layout)?;
         closable(drive, &mounting)?;
         let count = drive.belt.elements;
         let length = mounting.length / count as f64;
-        let motion = on_path::<E>(drive, &layout, &mounting);
-        let [x, y] = layout.point(drive.belt.first_node).tangent;
-        let along = usize::from(x.abs() < y.abs());
-        let mut system =
-            system(drive, &layout, length)?.following(along, Box::new(Constant(motion.q[along])));
+        let mut system = system(drive, &layout, length)?;
+        for (contact, pulley) in system.law.pulleys.iter_mut().zip(&drive.pulley) {
+            contact.center = pulley.middle(0.0);
+            contact.displacement = None;
+        }
+        let mut holds = vec![hold_along(drive, &layout, 0)];
         if drive.pulley.iter().any(Pulley::is_misaligned) && !is_guided(drive) {
-            for node in 0..count {
-                let height = node * E::NODE_DOF + 2;
-                system = system.following(height, Box::new(Constant(motion.q[height])));
-            }
+            let stiffness = hold_stiffness(drive, &layout);
+            holds.extend((0..count).map(|node| Hold {
+                first: node * E::NODE_DOF,
+                direction: [0.0, 0.0, 1.0],
+                stiffness,
+            }));
         }
         Ok(Self {
             system,
-            motion,
+            motion: on_path::<E>(drive, &layout, &mounting),
+            holds,
             warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
             layout,
             mounting,
@@ -91,17 +94,17 @@ impl<E: SpaceBeltElement> SpaceBeamAssembly<E> {
         })
     }
 
-    /// Lets the belt go, and the friction of `drive` and the external torques act.
-    pub fn release_beams(&mut self, drive: &Drive) -> Result<(), AssemblyError> {
-        let length = self.mounting.length / drive.belt.elements as f64;
-        self.system = system(drive, &self.layout, length)?;
+    /// Lets the friction of `drive` and the external torques act, and the hubs move.
+    pub fn release_beams(&mut self, drive: &Drive) {
         let law = &mut self.system.law;
         // The flanks press as hard as they do: no groove multiplies friction here.
         law.set_friction((drive.pulley.iter()).map(|p| Law::new(drive.friction_on(p), 1.0)));
         for (contact, pulley) in law.pulleys.iter_mut().zip(&drive.pulley) {
             contact.external = pulley.external_torque();
+            let [x, y] = pulley.center;
+            contact.center = [x, y, pulley.offset];
+            contact.displacement.clone_from(&pulley.displacement);
         }
-        Ok(())
     }
 }
 
