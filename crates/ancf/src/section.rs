@@ -1,6 +1,10 @@
 //! Cross-sections by their polynomial moments.
 
+mod trapezoid;
+
 use std::f64::consts::PI;
+
+pub use trapezoid::Trapezoid;
 
 /// Shear correction factor ks of the rectangle, used by every beam with shear, as published
 /// (Kerkkänen 2006, 2.18 and 4.34).

@@ -156,12 +156,7 @@ pub fn settle_watched(
     let structure = system.structure();
     let size = structure.size();
     let norm = VectorNorm::new(system);
-    let rest = vec![0.0; size];
-    let mut fixed = vec![false; size];
-    for (index, _) in system.prescribed() {
-        fixed[*index] = true;
-    }
-    let start = q.to_vec();
+    let mut held = Held::new(system, time, q, holds);
     let mut matrix = BorderedMatrix::new(structure);
     let mut solver = CyclicSolver::new(structure);
     let mut force = vec![0.0; size];
@@ -175,30 +170,8 @@ pub fn settle_watched(
         if watch(iteration, q).is_break() {
             return Err(StaticsError::Stopped { iteration });
         }
-        let state = State { time, q, v: &rest };
-        matrix.clear();
-        matrix.add_scaled(shift, system.mass());
-        system.add_tangent(state, 1.0, 0.0, &mut matrix);
-        for hold in holds {
-            hold.add_tangent(&mut matrix);
-        }
-        for (index, is_fixed) in fixed.iter().enumerate() {
-            if *is_fixed {
-                matrix.set_unit_row(index);
-            }
-        }
-        let evaluate = |system: &mut dyn Mechanics, q: &[f64], out: &mut [f64]| {
-            system.force(State { time, q, v: &rest }, out);
-            for hold in holds {
-                hold.add_force(&start, q, out);
-            }
-            for (value, is_fixed) in out.iter_mut().zip(&fixed) {
-                if *is_fixed {
-                    *value = 0.0;
-                }
-            }
-        };
-        evaluate(system, q, &mut force);
+        held.tangent(q, shift, &mut matrix);
+        held.force(q, &mut force);
         solver
             .factor(&matrix)
             .map_err(|singular| StaticsError::Singular {
@@ -232,7 +205,7 @@ pub fn settle_watched(
                 for i in 0..size {
                     trial[i] = q[i] + damping * correction[i];
                 }
-                evaluate(system, &trial, &mut trial_force);
+                held.force(&trial, &mut trial_force);
                 if dot(&trial_force, &correction) >= -(1.0 - LINE_SEARCH * damping) * descent {
                     accepted = true;
                     break;
@@ -257,6 +230,65 @@ pub fn settle_watched(
         correction: last.0,
         coordinate: last.1,
     })
+}
+
+/// A system at rest with its holds, prescribed coordinates fixed.
+struct Held<'a> {
+    system: &'a mut dyn Mechanics,
+    time: f64,
+    holds: &'a [Hold],
+    /// Where the holds are at rest.
+    start: Vec<f64>,
+    rest: Vec<f64>,
+    fixed: Vec<bool>,
+}
+
+impl<'a> Held<'a> {
+    fn new(system: &'a mut dyn Mechanics, time: f64, start: &[f64], holds: &'a [Hold]) -> Self {
+        let mut fixed = vec![false; start.len()];
+        for (index, _) in system.prescribed() {
+            fixed[*index] = true;
+        }
+        Self {
+            system,
+            time,
+            holds,
+            start: start.to_vec(),
+            rest: vec![0.0; start.len()],
+            fixed,
+        }
+    }
+
+    /// Forces at `q`, zero where coordinates are prescribed.
+    fn force(&mut self, q: &[f64], out: &mut [f64]) {
+        let (time, v) = (self.time, &self.rest);
+        self.system.force(State { time, q, v }, out);
+        for hold in self.holds {
+            hold.add_force(&self.start, q, out);
+        }
+        for (value, is_fixed) in out.iter_mut().zip(&self.fixed) {
+            if *is_fixed {
+                *value = 0.0;
+            }
+        }
+    }
+
+    /// Minus the derivative of the forces at `q`, and `shift` times the mass matrix.
+    fn tangent(&mut self, q: &[f64], shift: f64, matrix: &mut BorderedMatrix) {
+        let (time, v) = (self.time, &self.rest);
+        matrix.clear();
+        matrix.add_scaled(shift, self.system.mass());
+        self.system
+            .add_tangent(State { time, q, v }, 1.0, 0.0, matrix);
+        for hold in self.holds {
+            hold.add_tangent(matrix);
+        }
+        for (index, is_fixed) in self.fixed.iter().enumerate() {
+            if *is_fixed {
+                matrix.set_unit_row(index);
+            }
+        }
+    }
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -27,10 +27,12 @@ mod build;
 mod free_motion;
 mod modes;
 mod plate;
+mod spatial;
 
 pub use free_motion::{FreeMotion, RigidMotion};
 pub use modes::Mode;
 pub use plate::{Edge, PlateStructure};
+pub use spatial::{NodeDirection, SpatialStructure};
 
 use std::sync::Arc;
 

@@ -46,7 +46,7 @@ pub fn check(arguments: &Arguments) -> Result<(), Failure> {
 
 fn mount(drive: &Drive) -> Result<(Layout, Mounting), AssemblyError> {
     let layout = Layout::of(drive)?;
-    let mounting = Mounting::new(&drive.belt, &layout)?;
+    let mounting = Mounting::new(drive, &layout)?;
     Ok((layout, mounting))
 }
 

@@ -2,6 +2,7 @@
 //! path around the pulleys, the nodes `path / n` apart.
 
 mod plates;
+mod space_beams;
 
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -25,6 +26,8 @@ use crate::profile::Profile;
 
 pub use plates::PlateAssembly;
 pub(crate) use plates::contraction;
+pub(crate) use space_beams::is_guided;
+pub use space_beams::{SpaceBeamAssembly, SpaceBeltElement};
 
 /// Stretch beyond which a belt is taken to be the wrong one.
 const LARGEST_STRETCH: f64 = 2.0;
@@ -78,6 +81,18 @@ pub enum AssemblyError {
         stretch: f64,
         /// Least part of the width accepted.
         least: f64,
+    },
+    /// The flanks of a V-belt meet within it.
+    #[error(
+        "the flanks of the belt meet: at {angle:.1} degrees between them a belt {width:.6} m wide cannot be {thickness:.6} m high"
+    )]
+    NoSection {
+        /// Width at the centre line [m].
+        width: f64,
+        /// Height [m].
+        thickness: f64,
+        /// Angle between the flanks [degrees].
+        angle: f64,
     },
     /// The belt would have to stretch beyond reason.
     #[error(
@@ -141,10 +156,12 @@ pub struct Mounting {
 }
 
 impl Mounting {
-    /// The mounting of `belt` on the path of `layout`.
-    pub fn new(belt: &Belt, layout: &Layout) -> Result<Self, AssemblyError> {
+    /// The mounting of the belt of `drive` on the path of `layout`.
+    pub fn new(drive: &Drive, layout: &Layout) -> Result<Self, AssemblyError> {
         let path = layout.length;
-        let stiffness = axial_stiffness(belt);
+        let belt = &drive.belt;
+        // alpha1 E A [N].
+        let stiffness = belt.axial_factor * belt.youngs_modulus * drive.area();
         let length = if let Some(length) = belt.length {
             length
         } else if let Some(strain) = belt.strain {
@@ -175,11 +192,6 @@ impl Mounting {
             tension: 0.5 * stiffness * (stretch * stretch - 1.0) * stretch,
         })
     }
-}
-
-/// alpha1 E A [N].
-fn axial_stiffness(belt: &Belt) -> f64 {
-    belt.axial_factor * belt.youngs_modulus * belt.width * belt.thickness
 }
 
 /// The stretch `f` at which `(f² - 1) f / 2` equals `load`, by Newton from the right.
@@ -271,7 +283,7 @@ impl<E: BeltElementType> Assembly<E> {
     pub fn new(drive: &Drive) -> Result<Self, AssemblyError> {
         let belt = &drive.belt;
         let layout = Layout::of(drive)?;
-        let mounting = Mounting::new(belt, &layout)?;
+        let mounting = Mounting::new(drive, &layout)?;
         closable(drive, &mounting)?;
         let count = belt.elements;
         let length = mounting.length / count as f64;
@@ -292,7 +304,7 @@ impl<E: BeltElementType> Assembly<E> {
     pub fn graded(drive: &Drive, starts: &[f64]) -> Result<Self, AssemblyError> {
         let belt = &drive.belt;
         let layout = Layout::of(drive)?;
-        let mounting = Mounting::new(belt, &layout)?;
+        let mounting = Mounting::new(drive, &layout)?;
         closable(drive, &mounting)?;
         let ends = starts.iter().skip(1).chain(std::iter::once(&1.0));
         let elements = (starts.iter().zip(ends))
@@ -383,7 +395,12 @@ fn penalty(contact: &Contact) -> Penalty {
 
 /// The points of contact along an element.
 fn rule(contact: &Contact) -> Rule {
-    let points = NonZeroUsize::new(contact.points).unwrap_or(NonZeroUsize::MIN);
+    points_of(contact, contact.points)
+}
+
+/// So many points of the rule of `contact`.
+fn points_of(contact: &Contact, count: usize) -> Rule {
+    let points = NonZeroUsize::new(count).unwrap_or(NonZeroUsize::MIN);
     match contact.integration {
         Integration::Gauss => Rule::gauss(points),
         Integration::Trapezoidal => Rule::trapezoidal(points),
@@ -440,7 +457,7 @@ fn contact_pulley(drive: &Drive, pulley: &Pulley, arc: &layout::Arc) -> ContactP
         friction: Law::Frictionless(Frictionless),
         // The section's slope points to the left of the path: to the centre of a pulley that the path
         // turns about counter-clockwise.
-        height: drive.pitch_offset() * arc.sweep.signum(),
+        height: drive.pitch_offset_on(pulley) * arc.sweep.signum(),
         external: Profile::Constant(0.0).into(),
     }
 }
@@ -536,8 +553,11 @@ pub fn closable(drive: &Drive, mounting: &Mounting) -> Result<(), AssemblyError>
 
 fn allowed_turn(drive: &Drive) -> f64 {
     match drive.belt.element {
-        BeltElement::BeltBeam | BeltElement::CubicBeam | BeltElement::Plate => LARGEST_TURN,
-        BeltElement::LinearBeam => LARGEST_TURN_STRAIGHT,
+        BeltElement::BeltBeam
+        | BeltElement::CubicBeam
+        | BeltElement::Plate
+        | BeltElement::BeltBeam3d => LARGEST_TURN,
+        BeltElement::LinearBeam | BeltElement::LinearBeam3d => LARGEST_TURN_STRAIGHT,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What the user states: belt, contact, pulleys, run. Plain data in SI units.
 
 mod hub;
+mod section;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
@@ -70,12 +71,23 @@ pub enum BeltElement {
     LinearBeam,
     /// Thin plate in space, 36 coordinates: a belt with a width.
     Plate,
+    /// Belt beam in space, 24 coordinates: flat belts and V-belts.
+    #[serde(rename = "belt-beam-3d")]
+    BeltBeam3d,
+    /// Linear beam in space with one integration point, 18 coordinates.
+    #[serde(rename = "linear-beam-3d")]
+    LinearBeam3d,
 }
 
 impl BeltElement {
     /// Whether the belt moves in space; otherwise in the plane.
     pub fn is_spatial(self) -> bool {
-        self == Self::Plate
+        self == Self::Plate || self.is_beam_in_space()
+    }
+
+    /// Whether the belt is a chain of beams that move in space.
+    pub fn is_beam_in_space(self) -> bool {
+        matches!(self, Self::BeltBeam3d | Self::LinearBeam3d)
     }
 }
 
@@ -118,10 +130,10 @@ pub struct Belt {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
     pub strain: Option<f64>,
-    /// Width, along the pulley axis [m].
+    /// Width, along the pulley axis [m]; of a V-belt that at its centre line.
     #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
     pub width: f64,
-    /// Thickness, in the plane of the drive [m].
+    /// Thickness, in the plane of the drive [m]; of a V-belt its height.
     #[schemars(schema_with = "units::length", extend("exclusiveMinimum" = 0.0))]
     pub thickness: f64,
     /// Density [kg/m³].
@@ -142,6 +154,15 @@ pub struct Belt {
     #[serde(default = "one")]
     #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
     pub bending_factor: f64,
+    /// Factor on the torsion stiffness [-]: of beams in space.
+    #[serde(default = "one", skip_serializing_if = "is_whole")]
+    #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
+    pub torsion_factor: f64,
+    /// Angle between the flanks of a V-belt [rad]: of beams in space. Absent: that of the first groove, if any pulley
+    /// has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "units::angle", extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = std::f64::consts::PI))]
+    pub flank_angle: Option<f64>,
     /// Kelvin-Voigt damping time of axial strain and curvature [s].
     #[serde(default)]
     #[schemars(schema_with = "units::time", extend("minimum" = 0.0))]
@@ -183,10 +204,10 @@ pub enum Joint {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
-    /// Penalty stiffness k_p per length of belt [N/m²]; of plates per area [N/m³].
+    /// Penalty stiffness k_p per length of belt [N/m²]; of belts in space per area [N/m³].
     #[schemars(schema_with = "units::stiffness_per_length", extend("exclusiveMinimum" = 0.0))]
     pub stiffness: f64,
-    /// Penalty damping c_p per length of belt [N s/m²]; of plates per area [N s/m³].
+    /// Penalty damping c_p per length of belt [N s/m²]; of belts in space per area [N s/m³].
     #[serde(default)]
     #[schemars(schema_with = "units::damping_per_length", extend("minimum" = 0.0))]
     pub damping: f64,
@@ -202,6 +223,14 @@ pub struct Contact {
     #[serde(default = "default_points", serialize_with = "count")]
     #[schemars(extend("minimum" = 1, "maximum" = 64))]
     pub points: usize,
+    /// Integration points across the belt's face, and over the height of a V-belt's flank: of beams in space.
+    #[serde(
+        default = "default_points_across",
+        serialize_with = "count",
+        skip_serializing_if = "is_default_across"
+    )]
+    #[schemars(extend("minimum" = 1, "maximum" = 64))]
+    pub points_across: usize,
     /// The rule that these points belong to; steady running of the finite elements takes Gauss points on pieces between the
     /// corners of the contact law whatever it is.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -245,7 +274,7 @@ pub enum Friction {
         /// Coefficient of friction mu [-].
         #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
         coefficient: f64,
-        /// Creep slope v_s [N s/m²]; of plates [N s/m³].
+        /// Creep slope v_s [N s/m²]; of belts in space [N s/m³].
         #[schemars(schema_with = "units::damping_per_length", extend("exclusiveMinimum" = 0.0))]
         slope: f64,
     },
@@ -360,8 +389,8 @@ pub struct Pulley {
     /// Side of the belt.
     #[serde(default)]
     pub wrap: Wrap,
-    /// Angle of its groove [rad], both flanks together: the belt wedges in, and friction acts
-    /// `1 / sin(angle / 2)` times. Absent: a flat face.
+    /// Angle of its groove [rad], both flanks together. A belt in the plane wedges in: friction acts
+    /// `1 / sin(angle / 2)` times. A beam in space lies on the groove's flanks. Absent: a flat face.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "units::angle", extend("exclusiveMinimum" = 0.0, "maximum" = std::f64::consts::PI))]
     pub groove_angle: Option<f64>,
@@ -457,10 +486,13 @@ impl Drive {
     /// Contact integration points around the belt.
     pub fn contact_points(&self) -> usize {
         let points = self.contact.points;
-        let each = if self.belt.element.is_spatial() {
-            self.belt.elements_across * points * points
-        } else {
-            points
+        let each = match self.belt.element {
+            BeltElement::Plate => self.belt.elements_across * points * points,
+            element if element.is_beam_in_space() => {
+                let sides = if self.flank_angle().is_some() { 2 } else { 1 };
+                sides * points * self.contact.points_across
+            }
+            _ => points,
         };
         self.belt.elements * each
     }
@@ -468,14 +500,6 @@ impl Drive {
     /// Coefficient of friction [-] on `pulley`, its groove taken in.
     pub fn coefficient_on(&self, pulley: &Pulley) -> f64 {
         self.friction_on(pulley).coefficient() * pulley.grip()
-    }
-
-    /// How far the belt's centre line runs from the surfaces of the pulleys [m].
-    pub fn pitch_offset(&self) -> f64 {
-        match self.contact.surface {
-            Surface::CentreLine => 0.0,
-            Surface::Face => 0.5 * self.belt.thickness,
-        }
     }
 }
 
@@ -617,6 +641,25 @@ fn is_the_middle(line: &f64) -> bool {
 
 fn default_points() -> usize {
     7
+}
+
+impl Contact {
+    /// Points across where a drive file names none.
+    pub(crate) const POINTS_ACROSS: usize = 3;
+}
+
+fn default_points_across() -> usize {
+    Contact::POINTS_ACROSS
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_default_across(count: &usize) -> bool {
+    *count == Contact::POINTS_ACROSS
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_whole(factor: &f64) -> bool {
+    factor.to_bits() == one().to_bits()
 }
 
 fn zero_profile() -> Profile {

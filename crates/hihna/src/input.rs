@@ -33,7 +33,7 @@ use document::Node;
 use shape::Shape;
 
 /// The element whose contact is stated per area of belt.
-const PER_AREA: &str = "plate";
+const PER_AREA: [&str; 3] = ["plate", "belt-beam-3d", "linear-beam-3d"];
 
 /// A checked drive and the text that it came from, so that what is found to be wrong with it later
 /// is told with the line of the file, too.
@@ -75,7 +75,8 @@ impl DriveFile {
             }
         }
         let element = document.get("belt").and_then(|belt| belt.get("element"));
-        checker.per_area = element.and_then(Node::text) == Some(PER_AREA);
+        checker.per_area =
+            (element.and_then(Node::text)).is_some_and(|name| PER_AREA.contains(&name));
         let value = checker.check(shape, &document, &FieldPath::default());
         let mut problems = checker.ranges;
         let drive = match value {

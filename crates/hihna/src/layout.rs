@@ -128,13 +128,9 @@ impl Layout {
 
     /// The path of the centre line of `drive`'s belt.
     pub fn of(drive: &Drive) -> Result<Self, LayoutError> {
-        let offset = drive.pitch_offset();
-        if offset == 0.0 {
-            return Self::new(&drive.pulley);
-        }
         let mut pitch = drive.pulley.clone();
         for pulley in &mut pitch {
-            pulley.radius += offset;
+            pulley.radius += drive.pitch_offset_on(pulley);
         }
         Self::new(&pitch)
     }

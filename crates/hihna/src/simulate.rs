@@ -10,12 +10,15 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use ancf::dynamics::{IntegrationError, Statistics, integrate};
-use ancf::element::{BeltBeam2, CubicBeam2, Element, LinearBeam2};
+use ancf::element::{BeltBeam2, BeltBeam3, CubicBeam2, Element, LinearBeam2, LinearBeam3};
 use ancf::statics::{Settle, Settled, StaticsError, settle_watched};
 use ancf::system::Mechanics;
 use thiserror::Error;
 
-use crate::assemble::{Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, Warning};
+use crate::assemble::{
+    Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, SpaceBeamAssembly, Warning,
+};
+use crate::contact::surface::SurfaceContact;
 use crate::drive::{BeltElement, Drive, Joint, Start, Until};
 use crate::history::History;
 use crate::layout::Layout;
@@ -235,20 +238,26 @@ pub fn simulate_with(
         BeltElement::BeltBeam => planar::<BeltBeam2>(drive, laws, observer),
         BeltElement::CubicBeam => planar::<CubicBeam2>(drive, laws, observer),
         BeltElement::LinearBeam => planar::<LinearBeam2>(drive, laws, observer),
-        BeltElement::Plate if drive.run.start == Start::Steady => {
-            Err(Box::new(NoSteadyStart::Spatial).into())
-        }
-        BeltElement::Plate => run(
+        BeltElement::BeltBeam3d => in_space(
+            drive,
+            laws,
+            observer,
+            || SpaceBeamAssembly::<BeltBeam3>::of_beams(drive),
+            |assembly| assembly.release_beams(drive),
+        ),
+        BeltElement::LinearBeam3d => in_space(
+            drive,
+            laws,
+            observer,
+            || SpaceBeamAssembly::<LinearBeam3>::of_beams(drive),
+            |assembly| assembly.release_beams(drive),
+        ),
+        BeltElement::Plate => in_space(
             drive,
             laws,
             observer,
             || PlateAssembly::of_plates(drive),
-            |assembly| {
-                assembly.release_plates(drive);
-                let pulleys = assembly.system.law.pulleys.iter_mut();
-                laws.put_on(drive, pulleys.map(|p| (&mut p.friction, &mut p.external)));
-                Ok(())
-            },
+            |assembly| assembly.release_plates(drive),
         ),
     }
 }
@@ -276,6 +285,27 @@ fn planar<E: BeltElementType>(
             Ok(())
         },
     )
+}
+
+fn in_space<E: Element>(
+    drive: &Drive,
+    laws: &UserLaws,
+    observer: &mut dyn FnMut(&Progress) -> Flow,
+    assemble: impl FnOnce() -> Result<Assembly<E, SurfaceContact>, AssemblyError>,
+    release: impl FnOnce(&mut Assembly<E, SurfaceContact>),
+) -> Result<Outcome, RunError>
+where
+    SurfaceContact: PulleyLaw<E>,
+{
+    if drive.run.start == Start::Steady {
+        return Err(Box::new(NoSteadyStart::Spatial).into());
+    }
+    run(drive, laws, observer, assemble, |assembly| {
+        release(assembly);
+        let pulleys = assembly.system.law.pulleys.iter_mut();
+        laws.put_on(drive, pulleys.map(|p| (&mut p.friction, &mut p.external)));
+        Ok(())
+    })
 }
 
 /// Runs what `assemble` puts together; `release` gives the settled belt its friction, the pulleys their

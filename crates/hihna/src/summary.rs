@@ -271,7 +271,7 @@ impl Summary {
             model: Model {
                 element: drive.belt.element,
                 elements: drive.belt.elements,
-                elements_across: (drive.belt.element.is_spatial())
+                elements_across: (drive.belt.element == BeltElement::Plate)
                     .then_some(drive.belt.elements_across),
                 dofs: outcome.dofs,
                 contact_points: drive.contact_points(),

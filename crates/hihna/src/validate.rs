@@ -25,10 +25,12 @@ mod plate_belt;
 mod plates;
 mod ring_down;
 mod selection;
+mod spatial_beams;
 mod spin_up;
 mod static_circle;
 mod string_drive;
 mod time_run;
+mod v_belt;
 mod verdict;
 
 use ancf::dynamics::IntegrationError;
@@ -94,6 +96,20 @@ const COMPUTATIONS: &[(&str, Compute)] = &[
     ("plates/square", plates::square_plate),
     ("plates/frequencies", plates::frequencies),
     ("plates/strips", plates::strips),
+    ("chapter-4-beams/cantilevers", spatial_beams::cantilevers),
+    (
+        "chapter-4-beams/large-deflection",
+        spatial_beams::large_deflection,
+    ),
+    (
+        "chapter-4-beams/bending-and-torsion",
+        spatial_beams::bending_and_torsion,
+    ),
+    ("chapter-4-v-belt/sink", v_belt::sink),
+    (
+        "chapter-4-v-belt/transmissible-torque",
+        v_belt::transmissible_torque,
+    ),
 ];
 
 /// The data files, in the order of the program's output.
@@ -103,6 +119,8 @@ const DATA: &[&str] = &[
     include_str!("../../../validation/chapter-4-analytical.toml"),
     include_str!("../../../validation/chapter-4-plate.toml"),
     include_str!("../../../validation/plates.toml"),
+    include_str!("../../../validation/chapter-4-beams.toml"),
+    include_str!("../../../validation/chapter-4-v-belt.toml"),
 ];
 
 /// Why a case could not be computed: all its judged rows fail.

@@ -55,6 +55,7 @@ fn contact(directions: FrictionDirections, clamp: bool) -> SurfaceContact {
         radius,
         slope,
         curvature,
+        groove: None,
         friction: Law::CreepRate(CreepRate {
             coefficient: 0.7,
             slope: 2.0e5,

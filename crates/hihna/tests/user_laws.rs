@@ -218,6 +218,10 @@ fn mistakes_are_errors() {
     let laws = UserLaws::default().with_torque("driver", Arc::new(Fan));
     let error = run_with(&drive, &laws).unwrap_err();
     assert!(error.to_string().contains("prescribed"), "{error}");
+    let running = two_pulleys(&["run.end_time=0.01", "run.start='steady'"]);
+    let laws = UserLaws::default().with_torque("driven", Arc::new(Fan));
+    let error = run_with(&running, &laws).unwrap_err();
+    assert!(error.to_string().contains("run.start"), "{error}");
     let laws = UserLaws::default().with_friction("driven", Arc::new(Nothing));
     let error = run_with(&drive, &laws).unwrap_err();
     assert!(matches!(error, RunError::Step { .. }), "{error}");

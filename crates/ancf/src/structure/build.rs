@@ -17,15 +17,15 @@ use crate::statics::{Equilibrium, LoadStepError, LoadSteps, Loaded, equilibrium,
 use crate::system::{Mechanics, RigidCoordinate, State, System};
 
 /// Largest distance of ends, relative to an element's length, that still meet.
-const CLOSED: f64 = 1.0e-9;
+pub(super) const CLOSED: f64 = 1.0e-9;
 /// Largest violation of constraints by a start [m, m/s].
 const CONSISTENT: f64 = 1.0e-9;
 /// Correction at which statics ends, relative to the length of the chain; the error left is its square.
-const TOLERANCE: f64 = 1.0e-9;
+pub(super) const TOLERANCE: f64 = 1.0e-9;
 /// Iterations of a load step.
-const MAX_ITERATIONS: usize = 25;
+pub(super) const MAX_ITERATIONS: usize = 25;
 /// Halvings of a load step: bending a beam far beyond its thickness at once may take many.
-const HALVINGS: u32 = 12;
+pub(super) const HALVINGS: u32 = 12;
 
 impl<E: LineElement> Loaded for System<E, Loads> {
     fn set_load_factor(&mut self, factor: f64) {
@@ -434,7 +434,10 @@ impl<E: LineElement> PlanarStructure<E> {
     }
 }
 
-fn finite(what: &str, mut values: impl Iterator<Item = f64>) -> Result<(), StructureError> {
+pub(super) fn finite(
+    what: &str,
+    mut values: impl Iterator<Item = f64>,
+) -> Result<(), StructureError> {
     match values.find(|value| !value.is_finite()) {
         None => Ok(()),
         Some(value) => Err(StructureError::Value {

@@ -25,7 +25,7 @@ impl PlateAssembly {
     /// in their plane, too: without friction such a belt would slip off.
     pub fn of_plates(drive: &Drive) -> Result<Self, AssemblyError> {
         let layout = Layout::of(drive)?;
-        let mounting = Mounting::new(&drive.belt, &layout)?;
+        let mounting = Mounting::new(drive, &layout)?;
         closable(drive, &mounting)?;
         let contraction = contraction(&drive.belt, &mounting)?;
         let count = drive.belt.elements;
@@ -123,7 +123,8 @@ fn plate(belt: &Belt, length: f64) -> ThinPlate {
     ThinPlate::new(length, across, belt.thickness, &material(belt), rigidity)
 }
 
-fn surface_pulley(pulley: &Pulley) -> SurfacePulley {
+/// A pulley without a groove and friction.
+pub(super) fn surface_pulley(pulley: &Pulley) -> SurfacePulley {
     let [x, y] = pulley.center;
     let [slope, curvature] = pulley.shape();
     SurfacePulley {
@@ -133,6 +134,7 @@ fn surface_pulley(pulley: &Pulley) -> SurfacePulley {
         radius: pulley.radius,
         slope,
         curvature,
+        groove: None,
         friction: Law::Frictionless(Frictionless),
         external: Profile::Constant(0.0).into(),
     }

@@ -17,32 +17,47 @@
 //! pulley d is measured at right angles to the axis and k_p acts on that, so that the force has the potential
 //! `k_p d²/2` exactly; m and a are then longer than one by `R'²/2`.
 //!
+//! The flanks of a V-belt meet the walls of a groove, cones with the slope `R' = ±cot(groove angle / 2)`. There depth
+//! and directions are those at right angles to the wall and along it: with `c = sin(groove angle / 2)`
+//!
+//! ```text
+//! d = c (R(s) - rho)    m = c (n - R' p)    a = c (p + R' n)    v_t = t.r' - omega rho
+//! ```
+//!
+//! so that friction acts between points of belt and wall in one place, `v_a` is the slip up or down the flank, and
+//! wedging is what the forces do.
+//!
 //! Energy per area and time: friction takes `-f_t (t.r' - omega rho) - f_a v_a`, the damper
 //! `(f_n - k_p d) d'`.
 //!
 //! The law reads positions at given points of any element as sums over its vectors, so it serves plates and
 //! spatial beams alike. Derivatives are in the head of `point.rs`.
 
+mod face;
 mod kernels;
+mod meridian;
 mod point;
 mod table;
 
 #[cfg(test)]
 mod tests;
 
-use ancf::element::SurfaceElement;
+use ancf::element::{Element, LineElement, SurfaceElement};
 use ancf::linear::BorderedMatrix;
 use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
-use ancf::scalar::{Scalar, dispatch};
+use ancf::scalar::dispatch;
 use ancf::system::{ForceLaw, State};
 
 use super::{Penalty, PulleyContact};
 use crate::drive::{Displacement, FrictionDirections};
 use crate::friction::Law;
 use crate::load::ExternalTorque;
+pub use face::Face;
+pub use meridian::Groove;
+use meridian::{Meridian, Side};
 use point::{Meeting, SurfacePoint};
-use table::{LANES, Table, VECTORS};
+use table::{Table, VECTORS};
 
 /// A pulley as the contact of a surface sees it.
 #[derive(Clone, Debug)]
@@ -59,6 +74,8 @@ pub struct SurfacePulley {
     pub slope: f64,
     /// Its decrease along the axis, -R'' [1/m].
     pub curvature: f64,
+    /// The groove of a V-belt's pulley, which the belt's flanks touch.
+    pub groove: Option<Groove>,
     /// Friction of its surface.
     pub friction: Law,
     /// Torque from outside of the drive.
@@ -66,10 +83,19 @@ pub struct SurfacePulley {
 }
 
 impl SurfacePulley {
-    /// Radius at a place along the axis.
+    /// The surface that the points on one side of the belt's section meet.
     #[inline(always)]
-    fn radius_at<S: Scalar>(&self, along: S) -> S {
-        along * (along * (-0.5 * self.curvature) + self.slope) + self.radius
+    fn meridian(&self, side: Side) -> Meridian {
+        match (side, &self.groove) {
+            (Side::Flank(flank), Some(groove)) => groove.wall(self.radius, flank),
+            _ => Meridian {
+                radius: self.radius,
+                slope: self.slope,
+                curvature: self.curvature,
+                unit: 1.0,
+                lever: 1.0,
+            },
+        }
     }
 
     /// Centre O [m] and its velocity [m/s] at `time` [s].
@@ -92,7 +118,7 @@ pub struct SurfaceTouch {
     pub penetration: f64,
     /// Place along the pulley's axis, from its middle [m].
     pub along: f64,
-    /// Unit vector n.
+    /// Unit vector n, from the axis to the point.
     pub normal: [f64; 3],
     /// Unit vector t.
     pub around: [f64; 3],
@@ -112,12 +138,17 @@ pub struct SurfaceTouch {
 pub struct SurfaceContact {
     /// The pulleys.
     pub pulleys: Vec<SurfacePulley>,
-    /// The line along the belt that profiles show: 0 for the edge y = 0, 1 for the other.
+    /// The line along the belt that profiles show: 0 for the edge y = 0 (of beams that of the lesser z), 1 for the other.
     pub line: f64,
+    /// Width of a belt of beams, at its centre line [m].
+    pub width: f64,
     penalty: Penalty,
     directions: FrictionDirections,
     rule: Rule,
-    /// Tables by kind of element.
+    /// Which face of the belt touches each pulley.
+    face_of: Vec<usize>,
+    faces: usize,
+    /// Tables by kind of element, face by face.
     tables: Vec<Table>,
     /// Kind of each element.
     kind_of: Vec<usize>,
@@ -142,6 +173,50 @@ impl SurfaceContact {
         directions: FrictionDirections,
         rule: Rule,
     ) -> Self {
+        let face_of = vec![0; pulleys.len()];
+        let laws = (penalty, directions);
+        Self::of(mesh, (pulleys, face_of), laws, rule, |element, rule| {
+            vec![Table::of_surface(element, rule)]
+        })
+    }
+
+    /// Contact of a chain of spatial beams with `pulleys`, each with the face of the belt that touches it, by `rule`
+    /// along each element. A pulley with a groove takes the flanks.
+    #[must_use]
+    pub fn of_beams<E: LineElement>(
+        mesh: &Mesh<E>,
+        pulleys: Vec<(SurfacePulley, Face)>,
+        penalty: Penalty,
+        directions: FrictionDirections,
+        rule: Rule,
+    ) -> Self {
+        let mut faces: Vec<Face> = Vec::new();
+        let (pulleys, face_of) = pulleys
+            .into_iter()
+            .map(|(pulley, face)| {
+                let known = faces.iter().position(|known| *known == face);
+                let number = known.unwrap_or_else(|| {
+                    faces.push(face);
+                    faces.len() - 1
+                });
+                (pulley, number)
+            })
+            .unzip();
+        let laws = (penalty, directions);
+        Self::of(mesh, (pulleys, face_of), laws, rule, |element, rule| {
+            let table = |face| Table::of_face(element, rule, face);
+            faces.iter().map(table).collect()
+        })
+    }
+
+    /// Contact by the tables that `tables` makes for each face of an element.
+    fn of<E: Element>(
+        mesh: &Mesh<E>,
+        (pulleys, face_of): (Vec<SurfacePulley>, Vec<usize>),
+        (penalty, directions): (Penalty, FrictionDirections),
+        rule: Rule,
+        make: impl Fn(&E, &Rule) -> Vec<Table>,
+    ) -> Self {
         const {
             assert!(E::NODES * E::NODE_VECTORS <= VECTORS && E::DIMENSION == 3);
         }
@@ -154,11 +229,12 @@ impl SurfaceContact {
                 let found = known.iter().rposition(|other| *other == element);
                 found.unwrap_or_else(|| {
                     known.push(element);
-                    tables.push(Table::of_surface(element, &rule));
+                    tables.extend(make(element, &rule));
                     known.len() - 1
                 })
             })
             .collect();
+        let faces = tables.len() / known.len().max(1);
         let vectors = E::NODES * E::NODE_VECTORS;
         let coordinates = (0..mesh.elements().len())
             .map(|element| {
@@ -173,9 +249,12 @@ impl SurfaceContact {
         Self {
             pulleys,
             line: 0.5,
+            width: 0.0,
             penalty,
             directions,
             rule,
+            face_of,
+            faces,
             tables,
             kind_of,
             coordinates,
@@ -219,50 +298,74 @@ impl SurfaceContact {
         &self,
         state: State<'_>,
         element: usize,
+        place: [usize; 2],
+    ) -> Option<SurfaceTouch> {
+        (0..self.pulleys.len()).find_map(|p| self.touch_on(p, state, element, place))
+    }
+
+    /// The contact at point (`i` along, `j` across the face that touches it) of `element` with pulley `p`, if any.
+    pub fn touch_on(
+        &self,
+        p: usize,
+        state: State<'_>,
+        element: usize,
         [i, j]: [usize; 2],
     ) -> Option<SurfaceTouch> {
-        let [r, v] = self.motion(state, element, [i, j]);
-        (0..self.pulleys.len()).find_map(|p| {
-            let pulley = &self.pulleys[p];
-            let [center, drift] = pulley.hub(state.time);
-            let meeting = Meeting {
-                arm: std::array::from_fn(|k| r[k] - center[k]),
-                v: std::array::from_fn(|k| v[k] - drift[k]),
-                speed: state.v[self.chain + p],
-            };
-            let at = SurfacePoint::new(&self.penalty, pulley, self.directions, &meeting);
-            (at.penetration > 0.0).then(|| SurfaceTouch {
-                pulley: p,
-                penetration: at.penetration,
-                along: at.along,
-                normal: at.normal,
-                around: at.around,
-                normal_force: at.normal_force,
-                friction: at.friction,
-                slip: at.slip,
-                slides: at.rise == 0.0 && at.friction.iter().any(|force| *force != 0.0),
-            })
+        let table = self.table(element, self.face_of[p]);
+        if j >= table.across {
+            return None;
+        }
+        let (batch, lane) = table.place([i, j]);
+        let (mut r, mut v) = ([0.0; 3], [0.0; 3]);
+        for (weight, at) in batch.by_lane[lane].iter().zip(&self.coordinates[element]) {
+            for axis in 0..3 {
+                r[axis] += weight * state.q[at + axis];
+                v[axis] += weight * state.v[at + axis];
+            }
+        }
+        let pulley = &self.pulleys[p];
+        let [center, drift] = pulley.hub(state.time);
+        let meeting = Meeting {
+            arm: std::array::from_fn(|k| r[k] - center[k]),
+            v: std::array::from_fn(|k| v[k] - drift[k]),
+            speed: state.v[self.chain + p],
+        };
+        let surface = (pulley, pulley.meridian(batch.side));
+        let at = SurfacePoint::new(&self.penalty, surface, self.directions, &meeting);
+        (at.penetration > 0.0).then(|| SurfaceTouch {
+            pulley: p,
+            penetration: at.penetration,
+            along: at.along,
+            normal: at.normal,
+            around: at.around,
+            normal_force: at.normal_force,
+            friction: at.friction,
+            slip: at.slip,
+            slides: at.rise == 0.0 && at.friction.iter().any(|force| *force != 0.0),
         })
     }
 
-    /// Quadrature weight times area [m²] of point (`i` along, `j` across) of `element`.
-    pub fn area(&self, element: usize, [i, j]: [usize; 2]) -> f64 {
-        let k = i * self.rule.points.len() + j;
-        self.tables[self.kind_of[element]].batches[k / LANES].area[k % LANES]
+    /// Points across the face of `element` that touches pulley `p`.
+    pub fn across(&self, p: usize, element: usize) -> usize {
+        self.table(element, self.face_of[p]).across
     }
 
-    /// Position and velocity of a point.
-    fn motion(&self, state: State<'_>, element: usize, [i, j]: [usize; 2]) -> [[f64; 3]; 2] {
-        let k = i * self.rule.points.len() + j;
-        let shape = &self.tables[self.kind_of[element]].batches[k / LANES].by_lane[k % LANES];
-        let (mut r, mut v) = ([0.0; 3], [0.0; 3]);
-        for (slot, at) in self.coordinates[element].iter().enumerate() {
-            for axis in 0..3 {
-                r[axis] += shape[slot] * state.q[at + axis];
-                v[axis] += shape[slot] * state.v[at + axis];
-            }
-        }
-        [r, v]
+    /// Quadrature weight times area [m²] of point (`i` along, `j` across) of `element` on the face that touches
+    /// pulley `p`.
+    pub fn area(&self, p: usize, element: usize, place: [usize; 2]) -> f64 {
+        let (batch, lane) = self.table(element, self.face_of[p]).place(place);
+        batch.area[lane]
+    }
+
+    /// All elements, each with all faces.
+    fn places(&self) -> impl Iterator<Item = (usize, usize)> {
+        let faces = self.faces;
+        (0..self.kind_of.len()).flat_map(move |element| (0..faces).map(move |face| (element, face)))
+    }
+
+    #[inline]
+    fn table(&self, element: usize, face: usize) -> &Table {
+        &self.tables[self.kind_of[element] * self.faces + face]
     }
 }
 

@@ -55,9 +55,9 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
     };
     let fit = Layout::of(drive)
         .map_err(AssemblyError::Layout)
-        .and_then(|layout| Mounting::new(&drive.belt, &layout))
+        .and_then(|layout| Mounting::new(drive, &layout))
         .and_then(|mounting| {
-            if drive.belt.element.is_spatial() {
+            if drive.belt.element == BeltElement::Plate {
                 contraction(&drive.belt, &mounting)?;
             }
             closable(drive, &mounting)
@@ -78,6 +78,7 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
             None => pulleys,
         },
         AssemblyError::Layout(_) => pulleys,
+        AssemblyError::NoSection { .. } => FieldPath::default().field("belt").field("thickness"),
         AssemblyError::Joint(_) => FieldPath::default().field("belt").field("joint"),
         AssemblyError::TooFewElements { .. } => {
             FieldPath::default().field("belt").field("elements")
@@ -99,7 +100,7 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
         AssemblyError::NoWidth { .. } => {
             problem.expected("a belt that is stretched less, or a smaller Poisson's ratio")
         }
-        AssemblyError::Joint(_) => problem,
+        AssemblyError::Joint(_) | AssemblyError::NoSection { .. } => problem,
         AssemblyError::Layout(_) => {
             problem.help("`hihna check` prints the path of the belt once it closes")
         }
@@ -108,20 +109,31 @@ pub(crate) fn mounting(drive: &Drive) -> Option<Problem> {
 
 /// What only the belt beam has must not be asked of other elements.
 fn element(belt: &Belt, problems: &mut Vec<Problem>) {
-    if belt.element == BeltElement::BeltBeam {
-        return;
-    }
     let path = FieldPath::default().field("belt");
+    let planar = [BeltElement::BeltBeam];
+    let both = [BeltElement::BeltBeam, BeltElement::BeltBeam3d];
     let needless = [
-        ("axial_factor", belt.axial_factor, 1.0),
-        ("damping_time", belt.damping_time, 0.0),
+        (
+            "axial_factor",
+            belt.axial_factor,
+            1.0,
+            &both[..],
+            "`belt-beam` and `belt-beam-3d`",
+        ),
+        (
+            "damping_time",
+            belt.damping_time,
+            0.0,
+            &planar[..],
+            "`belt-beam`",
+        ),
     ];
-    for (field, value, neutral) in needless {
-        if (value - neutral).abs() > 0.0 {
+    for (field, value, neutral, owners, named) in needless {
+        if !owners.contains(&belt.element) && (value - neutral).abs() > 0.0 {
             problems.push(
                 Problem::new(
                     path.field(field),
-                    format!("only `belt-beam` elements have the `{field}`, which is {value}"),
+                    format!("only {named} elements have the `{field}`, which is {value}"),
                 )
                 .expected(format!("{neutral}, or nothing, for other elements")),
             );
@@ -270,13 +282,16 @@ fn overlap(pulley: &Pulley, before: &[Pulley], path: &FieldPath, problems: &mut 
 /// A belt that touches with its centre line is bent about the pulley's radius: half of its thickness must
 /// find room there.
 fn thickness(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
-    let half = 0.5 * drive.belt.thickness;
-    if drive.contact.surface == Surface::CentreLine && half >= pulley.radius {
+    let section = drive.trapezoid();
+    let half = section.map_or(0.5 * drive.belt.thickness, |section| section.narrow());
+    let to_centre_line =
+        drive.contact.surface == Surface::CentreLine || drive.is_grooved_in_space(pulley);
+    if to_centre_line && half >= pulley.radius {
         problems.push(
             Problem::new(
                 path.field("radius"),
                 format!(
-                    "the belt is too thick for `{path}`: half of its thickness, {half} m, is not less than the radius, {} m",
+                    "the belt is too thick for `{path}`: its thickness inside of the centre line, {half} m, is not less than the radius, {} m",
                     pulley.radius
                 ),
             )

@@ -1,7 +1,9 @@
 //! Rules of belts in space, and of what only they have.
 
+use crate::assemble::is_guided;
 use crate::drive::{
-    Drive, Friction, FrictionDirections, Integrator, Joint, PlateBending, Pulley, Surface,
+    BeltElement, Contact, Drive, Friction, FrictionDirections, Integrator, Joint, PlateBending,
+    Pulley, Surface, Wrap,
 };
 use crate::input::check::own_name;
 use crate::input::problem::{FieldPath, Problem};
@@ -34,30 +36,60 @@ fn refuse(path: &FieldPath, what: &str, expected: &str) -> Problem {
 }
 
 fn in_the_plane(drive: &Drive, problems: &mut Vec<Problem>) {
+    let contact = FieldPath::default().field("contact");
+    only_of_plates(drive, problems);
+    only_of_beams_in_space(drive, problems);
+    if drive.contact.friction_directions != FrictionDirections::default() {
+        problems.push(refuse(
+            &contact.field("friction_directions"),
+            "is for belts in space",
+            OF_SPACE,
+        ));
+    }
+}
+
+/// What to do about a field that only belts in space have.
+const OF_SPACE: &str = "nothing, or `element = \"plate\"` or `\"belt-beam-3d\"` in `[belt]`";
+
+fn only_of_plates(drive: &Drive, problems: &mut Vec<Problem>) {
+    let belt = FieldPath::default().field("belt");
+    let needless = [
+        (drive.belt.elements_across != 1, "elements_across"),
+        (drive.belt.bending != PlateBending::default(), "bending"),
+    ];
+    for (given, field) in needless {
+        if given {
+            problems.push(refuse(
+                &belt.field(field),
+                "is for belts of plates",
+                "nothing, or `element = \"plate\"` in `[belt]`",
+            ));
+        }
+    }
+}
+
+fn only_of_beams_in_space(drive: &Drive, problems: &mut Vec<Problem>) {
     let (belt, contact) = (
         FieldPath::default().field("belt"),
         FieldPath::default().field("contact"),
     );
     let needless = [
         (
-            drive.belt.elements_across != 1,
-            belt.field("elements_across"),
+            drive.belt.torsion_factor.to_bits() != 1.0_f64.to_bits(),
+            belt.field("torsion_factor"),
         ),
+        (drive.belt.flank_angle.is_some(), belt.field("flank_angle")),
         (
-            drive.belt.bending != PlateBending::default(),
-            belt.field("bending"),
-        ),
-        (
-            drive.contact.friction_directions != FrictionDirections::default(),
-            contact.field("friction_directions"),
+            drive.contact.points_across != Contact::POINTS_ACROSS,
+            contact.field("points_across"),
         ),
     ];
     for (given, path) in needless {
         if given {
             problems.push(refuse(
                 &path,
-                "is for belts of plates",
-                "nothing, or `element = \"plate\"` in `[belt]`",
+                "is for belts of beams in space",
+                "nothing, or `element = \"belt-beam-3d\"` in `[belt]`",
             ));
         }
     }
@@ -68,6 +100,47 @@ fn in_space(drive: &Drive, problems: &mut Vec<Problem>) {
         FieldPath::default().field("belt"),
         FieldPath::default().field("contact"),
     );
+    if drive.belt.element == BeltElement::Plate {
+        plates(drive, problems);
+    } else {
+        only_of_plates(drive, problems);
+        section(drive, problems);
+    }
+    if drive.belt.joint != Joint::Shared {
+        problems.push(refuse(
+            &belt.field("joint"),
+            "is for beams in the plane",
+            "`\"shared\"`, or nothing, for belts in space",
+        ));
+    }
+    let laws = [
+        ("friction", Some(&drive.contact.friction)),
+        ("back_friction", drive.contact.back_friction.as_ref()),
+    ];
+    for (field, law) in laws {
+        if let Some(Friction::ElasticPlastic { .. }) = law {
+            problems.push(refuse(
+                &contact.field(field),
+                "has a law with memory, which the contact of belts in space does not keep",
+                "one of \"creep-rate\", \"coulomb\" and \"stribeck\"",
+            ));
+        }
+    }
+    if drive.run.integrator == Integrator::RungeKutta {
+        problems.push(refuse(
+            &FieldPath::default().field("run").field("integrator"),
+            "is for beams in the plane: of belts in space no stable step is known beforehand",
+            "an implicit integrator",
+        ));
+    }
+}
+
+fn plates(drive: &Drive, problems: &mut Vec<Problem>) {
+    let (belt, contact) = (
+        FieldPath::default().field("belt"),
+        FieldPath::default().field("contact"),
+    );
+    only_of_beams_in_space(drive, problems);
     if (drive.belt.bending_factor - 1.0).abs() > 0.0 {
         problems.push(
             refuse(
@@ -77,13 +150,6 @@ fn in_space(drive: &Drive, problems: &mut Vec<Problem>) {
             )
             .help("`bending = \"none\"` takes the bending stiffness of plates away"),
         );
-    }
-    if drive.belt.joint != Joint::Shared {
-        problems.push(refuse(
-            &belt.field("joint"),
-            "is for beams",
-            "`\"shared\"`, or nothing, for plates",
-        ));
     }
     if drive.contact.surface != Surface::CentreLine {
         problems.push(
@@ -95,25 +161,28 @@ fn in_space(drive: &Drive, problems: &mut Vec<Problem>) {
             .help("plates touch with their mid-surface: give radii that reach to it"),
         );
     }
-    let laws = [
-        ("friction", Some(&drive.contact.friction)),
-        ("back_friction", drive.contact.back_friction.as_ref()),
-    ];
-    for (field, law) in laws {
-        if let Some(Friction::ElasticPlastic { .. }) = law {
-            problems.push(refuse(
-                &contact.field(field),
-                "has a law with memory, which the contact of plates does not keep",
-                "one of \"creep-rate\", \"coulomb\" and \"stribeck\"",
-            ));
-        }
-    }
-    if drive.run.integrator == Integrator::RungeKutta {
-        problems.push(refuse(
-            &FieldPath::default().field("run").field("integrator"),
-            "is for beams: of plates no stable step is known beforehand",
-            "an implicit integrator",
-        ));
+}
+
+/// The section of a V-belt has two sides, and somewhere to lie.
+fn section(drive: &Drive, problems: &mut Vec<Problem>) {
+    let belt = FieldPath::default().field("belt");
+    if let Some(angle) = drive.flank_angle()
+        && drive.trapezoid().is_none()
+    {
+        let widest = drive.belt.width / (0.5 * angle).tan();
+        problems.push(
+            Problem::new(
+                belt.field("thickness"),
+                format!(
+                    "the flanks of the belt meet: with {:.1} degrees between them a belt {} m wide cannot be {} m high",
+                    angle.to_degrees(),
+                    drive.belt.width,
+                    drive.belt.thickness
+                ),
+            )
+            .expected(format!("a height well below {widest:.6} m"))
+            .help("`width` is that at the centre line, `thickness` the height of the section"),
+        );
     }
 }
 
@@ -159,21 +228,15 @@ fn pulley_in_the_plane(pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Pro
         if given {
             problems.push(refuse(
                 &path,
-                "leaves the plane in which the belt of beams lies",
-                "nothing, or `element = \"plate\"` in `[belt]`",
+                "leaves the plane in which the belt lies",
+                OF_SPACE,
             ));
         }
     }
 }
 
 fn pulley_in_space(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
-    if pulley.groove_angle.is_some() {
-        problems.push(refuse(
-            &path.field("groove_angle"),
-            "is for beams: plates run on flat faces",
-            "nothing",
-        ));
-    }
+    groove(drive, pulley, path, problems);
     let [slope, curvature] = pulley.shape();
     let half = 0.5 * drive.belt.width + pulley.offset.abs();
     let least = pulley.radius - slope.abs() * half - 0.5 * curvature.max(0.0) * half * half;
@@ -190,6 +253,7 @@ fn pulley_in_space(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &
         ));
     }
     if pulley.is_misaligned()
+        && !(drive.belt.element.is_beam_in_space() && is_guided(drive))
         && drive.contact.friction_directions == FrictionDirections::Circumferential
     {
         let field = if pulley.offset != 0.0 {
@@ -209,5 +273,69 @@ fn pulley_in_space(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &
             )
             .help("friction around the pulley alone is for pulleys in line"),
         );
+    }
+}
+
+/// Steepest wall of a groove that guides a belt: at less than ten degrees between the flanks a micrometre of belt is a
+/// tenth of a millimetre of radius.
+const NARROWEST: f64 = 0.17;
+/// Flattest wall that is one, 150 degrees between the flanks.
+const WIDEST: f64 = 2.62;
+
+/// A groove takes the inner side of a V-belt, and has straight walls.
+fn groove(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
+    let Some(angle) = pulley.groove_angle else {
+        return;
+    };
+    let field = path.field("groove_angle");
+    if drive.belt.element == BeltElement::Plate {
+        problems.push(refuse(
+            &field,
+            "is for beams: plates run on flat faces",
+            "nothing",
+        ));
+        return;
+    }
+    if !(NARROWEST..=WIDEST).contains(&angle) {
+        problems.push(refuse(
+            &field,
+            "makes no groove for the flanks of a belt in space",
+            "an angle from 10 to 150 degrees",
+        ));
+    }
+    if pulley.wrap == Wrap::Outside {
+        problems.push(
+            refuse(
+                &field,
+                "is on the back of the belt, which is flat",
+                "nothing on a pulley with `wrap = \"outside\"`",
+            )
+            .help("a V-belt runs on idlers outside of the loop with its back"),
+        );
+    }
+    for (given, name) in [
+        (pulley.taper != 0.0, "taper"),
+        (pulley.crown.is_some(), "crown"),
+    ] {
+        if given {
+            problems.push(refuse(
+                &path.field(name),
+                "is for flat faces, and the pulley has a groove",
+                "nothing beside `groove_angle`",
+            ));
+        }
+    }
+    // Where the belt would enter from beyond a wall, the groove holds nothing.
+    let mut before = (drive.pulley.iter()).take_while(|other| !std::ptr::eq(*other, pulley));
+    if let Some(far) = before.find(|other| (other.offset - pulley.offset).abs() > drive.belt.width)
+    {
+        problems.push(refuse(
+            &path.field("offset"),
+            &format!(
+                "leads the belt into the groove from beyond its wall: `{}` is more than a belt's width beside",
+                far.name
+            ),
+            "pulleys whose offsets differ by less than the width of the belt",
+        ));
     }
 }

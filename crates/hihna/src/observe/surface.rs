@@ -157,7 +157,7 @@ struct Sections<'a> {
 
 /// What the points across a section in contact sum up to.
 #[derive(Default)]
-struct Band {
+pub(super) struct Band {
     pulley: Option<usize>,
     normal_force: f64,
     friction_force: f64,
@@ -167,7 +167,7 @@ struct Band {
 }
 
 impl Band {
-    fn add(&mut self, touch: &SurfaceTouch, width: f64) {
+    pub(super) fn add(&mut self, touch: &SurfaceTouch, width: f64) {
         if *self.pulley.get_or_insert(touch.pulley) != touch.pulley {
             return;
         }
@@ -178,7 +178,7 @@ impl Band {
         self.sliding += if touch.slides { width } else { 0.0 };
     }
 
-    fn touch(&self) -> Option<Touch> {
+    pub(super) fn touch(&self) -> Option<Touch> {
         self.pulley.map(|pulley| Touch {
             pulley,
             normal_force: self.normal_force,
@@ -242,13 +242,7 @@ impl Sections<'_> {
         let gradient = gradient(&[*by_x, *by_y], &e);
         let stretch = gradient.fibre([1.0, 0.0]).stretch();
         let turn = pulley.map_or(0.0, |p| {
-            let pulley = &self.contact.pulleys[p];
-            let [center, _] = pulley.hub(self.motion.time);
-            let arm: [f64; 3] = std::array::from_fn(|axis| position[axis] - center[axis]);
-            // p.(arm x r_x) over the square of the distance from the axis
-            let along = dot(arm, pulley.axis);
-            let distance = dot(arm, arm) - along * along;
-            dot(pulley.axis, cross(arm, gradient.x)).abs() / distance
+            self.contact.turn(p, self.motion, position, gradient.x)
         });
         Station {
             position,
@@ -280,11 +274,11 @@ fn gradient([by_x, by_y]: &[[f64; VECTORS]; 2], e: &[f64; DOF]) -> SurfaceGradie
     }
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],

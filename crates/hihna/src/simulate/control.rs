@@ -113,7 +113,7 @@ pub(super) fn control(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> Co
 /// no pulley is free: the vibration that a changing speed excites first.
 pub(super) fn slowest_swing(drive: &Drive, mounting: &Mounting) -> f64 {
     let belt = &drive.belt;
-    let stiffness = belt.axial_factor * belt.youngs_modulus * belt.width * belt.thickness;
+    let stiffness = belt.axial_factor * belt.youngs_modulus * drive.area();
     // Spans are no longer than the belt: the estimate is on the slow side.
     let per_length = drive.pulley.len() as f64 / mounting.length;
     drive
@@ -140,7 +140,7 @@ pub(super) fn fastest_and_slowest_harmonic(drive: &Drive) -> (f64, f64) {
 /// consistent mass of a cubic element lets modes be up to four times faster than the local rates.
 fn explicit_step(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> f64 {
     let belt = &drive.belt;
-    let line_density = belt.density * belt.width * belt.thickness;
+    let line_density = belt.density * drive.area();
     let smallest = drive
         .pulley
         .iter()

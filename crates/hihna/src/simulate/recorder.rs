@@ -337,12 +337,11 @@ fn within<E: Element, L: PulleyLaw<E>>(
 
 /// Kinetic energy [J] of belt and pulleys without slip at the speed of the fastest driver.
 fn kinetic_at_nominal_speed(drive: &Drive, mounting: &Mounting) -> f64 {
-    let belt = &drive.belt;
     let rotors = drive
         .pulley
         .iter()
         .map(|p| p.inertia / (p.radius * p.radius));
-    let mass = belt.density * belt.width * belt.thickness * mounting.length + rotors.sum::<f64>();
+    let mass = drive.belt.density * drive.area() * mounting.length + rotors.sum::<f64>();
     0.5 * mass * nominal_speed(drive).powi(2)
 }
 

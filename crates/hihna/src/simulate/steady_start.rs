@@ -33,7 +33,7 @@ pub enum NoSteadyStart {
         /// Name of the pulley.
         pulley: String,
     },
-    /// The belt is one of plates.
+    /// The belt is one of plates or of beams in space.
     #[error("`run.start = \"steady\"` is there for planar elements only")]
     Spatial,
     /// No steady running is found, or the drive is none to ask for it.

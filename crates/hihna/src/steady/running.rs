@@ -22,8 +22,11 @@
 macro_rules! with_belt_element {
     ($drive:expr, $element:ident => $body:expr) => {
         match $drive.belt.element {
-            // Plates are refused before an element is made.
-            $crate::drive::BeltElement::BeltBeam | $crate::drive::BeltElement::Plate => {
+            // Belts in space are refused before an element is made.
+            $crate::drive::BeltElement::BeltBeam
+            | $crate::drive::BeltElement::Plate
+            | $crate::drive::BeltElement::BeltBeam3d
+            | $crate::drive::BeltElement::LinearBeam3d => {
                 type $element = ancf::element::BeltBeam2;
                 $body
             }

@@ -47,6 +47,9 @@ fn deflection(count: usize, hold: impl Fn(&mut PlateStructure)) -> Result<f64, S
     Ok(1.0e3 * middle[2] * rigidity / SIDE.powi(4))
 }
 
+/// Holds a plate.
+type Support = fn(&mut PlateStructure);
+
 fn supported(plate: &mut PlateStructure) {
     plate.support(Edge::ALL);
 }
@@ -62,8 +65,7 @@ fn cantilever(plate: &mut PlateStructure) {
 /// A square plate under an even pressure, supported and clamped, on three meshes.
 pub(super) fn square_plate() -> Result<Quantities, CaseError> {
     let mut quantities = Quantities::new();
-    let supports: [(&str, fn(&mut PlateStructure)); 2] =
-        [("simply supported", supported), ("clamped", clamped)];
+    let supports: [(&str, Support); 2] = [("simply supported", supported), ("clamped", clamped)];
     for (support, hold) in supports {
         let mut on_mesh = [0.0; 3];
         for (value, count) in on_mesh.iter_mut().zip([8, 16, 32]) {
@@ -88,7 +90,7 @@ pub(super) fn square_plate() -> Result<Quantities, CaseError> {
 /// Natural frequencies of square plates of 12 x 12 elements [sqrt(D/(rho h a⁴))].
 pub(super) fn frequencies() -> Result<Quantities, CaseError> {
     let mut quantities = Quantities::new();
-    let supports: [(&str, fn(&mut PlateStructure), usize); 3] = [
+    let supports: [(&str, Support, usize); 3] = [
         ("simply supported", supported, 3),
         ("clamped", clamped, 3),
         ("cantilever", cantilever, 5),

@@ -126,7 +126,7 @@ fn names_pick_cases_and_groups() {
     );
     let chapter = pick(&["chapter-4"]).unwrap();
     assert_eq!(chapter[..4], group);
-    assert_eq!(chapter[4..], pick(&["chapter-4-plate"]).unwrap());
+    assert!(chapter[4..].starts_with(&pick(&["chapter-4-plate"]).unwrap()));
     let one = "chapter-4-analytical/speed-loss";
     assert_eq!(pick(&[one, one]).unwrap(), [one]);
     let unknown = pick(&["chapter-4-analytical/speed-los"]).unwrap_err();

@@ -125,8 +125,7 @@ impl TimeRun {
 
     /// Unstretched line density rho A [kg/m].
     pub fn line_density(&self) -> f64 {
-        let belt = &self.drive.belt;
-        belt.density * belt.width * belt.thickness
+        self.drive.belt.density * self.drive.area()
     }
 
     /// The span that leaves pulley `p`, as columns call it.

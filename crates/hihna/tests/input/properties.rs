@@ -96,6 +96,8 @@ fn belt() -> impl Strategy<Value = Belt> {
                 poisson_ratio,
                 axial_factor: factor,
                 bending_factor: width,
+                torsion_factor: 1.0,
+                flank_angle: None,
                 damping_time,
                 joint: if elements % 2 == 0 {
                     Joint::Shared
@@ -128,6 +130,7 @@ fn contact() -> impl Strategy<Value = Contact> {
                     Surface::CentreLine
                 },
                 points,
+                points_across: 3,
                 integration: if flag {
                     Integration::Trapezoidal
                 } else {

@@ -181,3 +181,123 @@ fn belts_too_narrow_to_hold_are_refused() {
     );
     fails(&text, "strain = 0.8", "belt.strain", &["50 % of its width"]);
 }
+
+const V_BELT: &str = include_str!("../../../../examples/v_belt.toml");
+
+fn v_belt(old: &str, new: &str) -> String {
+    assert!(V_BELT.contains(old), "{old}");
+    V_BELT.replacen(old, new, 1)
+}
+
+/// A V-belt has the trapezoid of its groove's angle, or its own, wide as stated at the centre line; in grooves its centre
+/// line runs at the radius, on an idler its back does.
+#[test]
+fn v_belts_are_read() {
+    let drive: Drive = V_BELT.parse().unwrap();
+    let angle = 36.0_f64.to_radians();
+    assert!((drive.flank_angle().unwrap() - angle).abs() < 1e-15);
+    let section = drive.trapezoid().unwrap();
+    assert!(section.width == 0.011 && section.height == 0.008);
+    assert!(drive.area() < 0.011 * 0.008 && drive.area() > 0.97 * 0.011 * 0.008);
+    let text = v_belt(
+        "radius = \"60 mm\"\ngroove_angle = \"36 deg\"",
+        "radius = \"60 mm\"",
+    )
+    .replacen("points = 5", "points = 5\nsurface = \"face\"", 1)
+    .replacen(
+        "bending_factor",
+        "flank_angle = \"34 deg\"\nbending_factor",
+        1,
+    );
+    let drive: Drive = text.parse().unwrap();
+    assert!((drive.flank_angle().unwrap().to_degrees() - 34.0).abs() < 1e-12);
+    let section = drive.trapezoid().unwrap();
+    assert_eq!(drive.pitch_offset_on(&drive.pulley[0]), 0.0);
+    assert_eq!(drive.pitch_offset_on(&drive.pulley[1]), section.narrow());
+    assert!(drive.validate().is_empty());
+    // In the plane the groove stays a factor on friction.
+    let planar: Drive = with("inertia = 0.1", "inertia = 0.1\ngroove_angle = 0.6")
+        .parse()
+        .unwrap();
+    assert!(planar.flank_angle().is_none() && planar.trapezoid().is_none());
+}
+
+#[test]
+fn v_belts_refuse_what_they_cannot_be() {
+    for (old, new, field, part) in [
+        ("8 mm", "26 mm", "belt.thickness", "flanks of the belt meet"),
+        (
+            "points = 5",
+            "joint = \"multipliers\"",
+            "belt.joint",
+            "belts in space",
+        ),
+        (
+            "bending_factor = 0.02",
+            "damping_time = 1e-4",
+            "belt.damping_time",
+            "`belt-beam`",
+        ),
+        (
+            "bending_factor = 0.02",
+            "elements_across = 2",
+            "belt.elements_across",
+            "belts of plates",
+        ),
+        (
+            "groove_angle = \"36 deg\"",
+            "groove_angle = \"5 deg\"",
+            "pulley.driver.groove_angle",
+            "10 to 150 degrees",
+        ),
+        (
+            "inertia = 0.004",
+            "taper = 0.01\ninertia = 0.004",
+            "pulley.driven.taper",
+            "groove",
+        ),
+        (
+            "inertia = 0.004",
+            "offset = \"12 mm\"\ninertia = 0.004",
+            "pulley.driven.offset",
+            "beyond its wall",
+        ),
+    ] {
+        let text = if new.starts_with("joint") {
+            v_belt("bending_factor", "joint = \"multipliers\"\nbending_factor")
+        } else {
+            v_belt(old, new)
+        };
+        let marker = new.lines().next().unwrap();
+        fails(&text, marker, field, &[part]);
+    }
+}
+
+#[test]
+fn planar_belts_refuse_what_beams_in_space_have() {
+    for (old, new, field) in [
+        (
+            "elements = 20",
+            "torsion_factor = 0.5\nelements = 20",
+            "belt.torsion_factor",
+        ),
+        (
+            "elements = 20",
+            "flank_angle = 0.6\nelements = 20",
+            "belt.flank_angle",
+        ),
+        (
+            "points = 7",
+            "points_across = 2\npoints = 7",
+            "contact.points_across",
+        ),
+    ] {
+        let marker = new.lines().next().unwrap();
+        fails(
+            &with(old, new),
+            marker,
+            field,
+            &["element = \"belt-beam-3d\""],
+        );
+    }
+}

@@ -4,9 +4,10 @@ use ancf::linear::BorderedMatrix;
 use ancf::scalar::{EightLanes, LaneKernel};
 use ancf::system::State;
 
+use super::SurfaceContact;
+use super::meridian::Meridian;
 use super::point::{Meeting, SurfacePoint, across};
 use super::table::{Batch, LANES, VECTORS};
-use super::{SurfaceContact, SurfacePulley};
 use crate::contact::PulleyContact;
 
 /// Batches of an element whose tangents are summed together.
@@ -52,21 +53,21 @@ fn less<S: EightLanes>(a: [S; 3], b: [f64; 3]) -> [S; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// Whether any of the points at `arm` from the centre lies inside the surface of `pulley`.
+/// Whether any of the points at `arm` from the centre lies inside the surface `meridian` about `axis`.
 #[inline(always)]
-fn reaches<S: EightLanes>(pulley: &SurfacePulley, arm: [S; 3]) -> bool {
-    let (along, radial) = across(arm, pulley.axis);
+fn reaches<S: EightLanes>(meridian: &Meridian, axis: [f64; 3], arm: [S; 3]) -> bool {
+    let (along, radial) = across(arm, axis);
     let square = radial[0] * radial[0] + radial[1] * radial[1] + radial[2] * radial[2];
-    let radius = pulley.radius_at(along);
+    let radius = meridian.radius_at(along);
     (radius * radius - square).store().iter().any(|d| *d > 0.0)
 }
 
-/// Runs `work` for the batches of the table `batches` of `element` that touch a pulley.
+/// Runs `work` for the batches of `element` that touch a pulley; they are some of its face number `face`.
 #[inline(always)]
 fn for_touches<S: EightLanes>(
     this: &SurfaceContact,
     state: State<'_>,
-    element: usize,
+    (element, face): (usize, usize),
     batches: &[Batch],
     mut work: impl FnMut(&Touch<'_, S>),
 ) {
@@ -76,9 +77,13 @@ fn for_touches<S: EightLanes>(
         let r = interpolate(table, at, count, state.q, [S::zero(); 3]);
         let mut velocity = None;
         for (p, pulley) in this.pulleys.iter().enumerate() {
+            if this.face_of[p] != face {
+                continue;
+            }
             let [center, drift] = pulley.hub(state.time);
             let arm = less(r, center);
-            if !reaches(pulley, arm) {
+            let meridian = pulley.meridian(table.side);
+            if !reaches(&meridian, pulley.axis, arm) {
                 continue;
             }
             let v = match velocity {
@@ -96,7 +101,12 @@ fn for_touches<S: EightLanes>(
                 table,
                 at,
                 arm,
-                contact: SurfacePoint::new(&this.penalty, pulley, this.directions, &meeting),
+                contact: SurfacePoint::new(
+                    &this.penalty,
+                    (pulley, meridian),
+                    this.directions,
+                    &meeting,
+                ),
             });
         }
     }
@@ -134,13 +144,12 @@ impl LaneKernel for Resultants<'_> {
     #[inline(always)]
     fn run<S: EightLanes>(self) {
         let (this, out) = (self.contact, self.out);
-        for element in 0..this.kind_of.len() {
-            let batches = &this.tables[this.kind_of[element]].batches;
+        for place in this.places() {
             for_touches::<S>(
                 this,
                 self.state,
-                element,
-                batches,
+                place,
+                &this.table(place.0, place.1).batches,
                 #[inline(always)]
                 |touch| add_resultants(this, touch, &mut out[touch.pulley]),
             );
@@ -193,13 +202,12 @@ impl LaneKernel for AddForce<'_> {
     #[inline(always)]
     fn run<S: EightLanes>(self) {
         let (this, force) = (self.contact, self.force);
-        for element in 0..this.kind_of.len() {
-            let batches = &this.tables[this.kind_of[element]].batches;
+        for place in this.places() {
             for_touches::<S>(
                 this,
                 self.state,
-                element,
-                batches,
+                place,
+                &this.table(place.0, place.1).batches,
                 #[inline(always)]
                 |touch| {
                     let area = touch.area();
@@ -243,7 +251,11 @@ impl LaneKernel for AddTangent<'_> {
         for element in 0..this.kind_of.len() {
             local.fill(0.0);
             let mut touched = false;
-            for group in this.tables[this.kind_of[element]].batches.chunks(GROUP) {
+            let groups = (0..this.faces).flat_map(|face| {
+                let groups = this.table(element, face).batches.chunks(GROUP);
+                groups.map(move |group| (face, group))
+            });
+            for (face, group) in groups {
                 // A batch between two pulleys may touch both: the blocks of both are summed.
                 let mut blocks = [[S::zero(); 9]; GROUP];
                 let mut tables: [Option<&Batch>; GROUP] = [None; GROUP];
@@ -251,7 +263,7 @@ impl LaneKernel for AddTangent<'_> {
                 for_touches::<S>(
                     this,
                     state,
-                    element,
+                    (element, face),
                     group,
                     #[inline(always)]
                     |touch| {

@@ -1,19 +1,21 @@
 //! Contact at one point of a surface in space: forces, torque, losses and their derivatives.
 //!
-//! In the base `n, t, p` at the point, with `m = n - R' p` and `a = p + R' n`, a gradient by the point's
-//! position and velocity is a row of three numbers. The base turns with the point,
+//! In the base `n, t, p` at the point, with `m = c (n - R' p)` and `a = c (p + R' n)`, a gradient by the point's
+//! position and velocity is a row of three numbers. The base turns with the point; c is constant, and with the part
+//! b of the depth in the lever `L = rho + b (R - rho)` of the slip
 //!
 //! ```text
 //! dn = t (t.dr)/rho      dt = -n (t.dr)/rho      dR = R' p.dr      dR' = R'' p.dr
-//! d(d)  = -m.dr          d(d') = -(v_t/rho) t.dr + R'' v_p p.dr - m.dv
-//! d(v_t - omega R) = -(v_n/rho) t.dr - omega R' p.dr + t.dv - R d(omega)
-//! d(a.v) = R' (v_t/rho) t.dr + R'' v_n p.dr + a.dv
-//! dm = (t t^T/rho - R'' p p^T) dr      da = (R'' n p^T + (R'/rho) t t^T) dr
+//! d(d)  = -m.dr          d(d') = c (-(v_t/rho) t.dr + R'' v_p p.dr) - m.dv
+//! d(v_t - omega L) = -(v_n/rho) t.dr - omega ((1 - b) n + b R' p).dr + t.dv - L d(omega)
+//! d(a.v) = c (R' (v_t/rho) t.dr + R'' v_n p.dr) + a.dv
+//! dm = c (t t^T/rho - R'' p p^T) dr      da = c (R'' n p^T + (R'/rho) t t^T) dr
 //! ```
 
 use ancf::scalar::Scalar;
 
 use super::SurfacePulley;
+use super::meridian::Meridian;
 use crate::contact::Penalty;
 use crate::drive::FrictionDirections;
 use crate::friction::{FrictionLaw, Slip};
@@ -59,9 +61,11 @@ pub(super) struct SurfacePoint<S> {
     /// Velocity in the base `n, t, p` [m/s].
     v: [S; 3],
     speed: S,
-    radius: S,
+    /// L.
+    lever: S,
     /// R'.
     slope: S,
+    meridian: Meridian,
     // For the derivatives.
     by_penetration: S,
     by_rate: S,
@@ -108,11 +112,11 @@ pub(super) fn across<S: Scalar>(arm: [S; 3], p: [f64; 3]) -> (S, [S; 3]) {
 }
 
 impl<S: Scalar> SurfacePoint<S> {
-    /// The contact of a point with `pulley`.
+    /// The contact of a point with the part `meridian` of `pulley`.
     #[inline(always)]
     pub fn new(
         penalty: &Penalty,
-        pulley: &SurfacePulley,
+        (pulley, meridian): (&SurfacePulley, Meridian),
         directions: FrictionDirections,
         meeting: &Meeting<S>,
     ) -> Self {
@@ -135,11 +139,13 @@ impl<S: Scalar> SurfacePoint<S> {
             dot(t, velocity),
             velocity[0] * p[0] + velocity[1] * p[1] + velocity[2] * p[2],
         ];
-        let radius = pulley.radius_at(along);
-        let slope = along * -pulley.curvature + pulley.slope;
-        let penetration = radius - distance;
-        let rate = slope * v[2] - v[0];
-        let slip = [v[1] - meeting.speed * radius, v[2] + slope * v[0]];
+        let depth = meridian.radius_at(along) - distance;
+        let slope = meridian.slope_at(along);
+        let unit = meridian.unit;
+        let penetration = depth * unit;
+        let rate = (slope * v[2] - v[0]) * unit;
+        let lever = distance + depth * meridian.lever;
+        let slip = [v[1] - meeting.speed * lever, (v[2] + slope * v[0]) * unit];
         let force = penetration * penalty.stiffness + rate * penalty.damping;
         // One where the point touches, one where its normal force acts; zero elsewhere.
         let touching = penetration.select_positive(one, zero);
@@ -201,8 +207,9 @@ impl<S: Scalar> SurfacePoint<S> {
             rise,
             v,
             speed: meeting.speed,
-            radius,
+            lever,
             slope,
+            meridian,
             by_penetration: pushing * penalty.stiffness,
             by_rate: pushing * penalty.damping,
             friction_by_slip,
@@ -214,10 +221,11 @@ impl<S: Scalar> SurfacePoint<S> {
     #[inline(always)]
     fn local_force(&self) -> [S; 3] {
         let [ft, fa] = self.friction;
+        let unit = self.meridian.unit;
         [
-            self.normal_force + self.slope * fa,
+            (self.normal_force + self.slope * fa) * unit,
             ft,
-            fa - self.slope * self.normal_force,
+            (fa - self.slope * self.normal_force) * unit,
         ]
     }
 
@@ -245,21 +253,31 @@ impl<S: Scalar> SurfacePoint<S> {
     pub fn tangent(&self, pulley: &SurfacePulley, gq: f64, gv: f64) -> SurfaceTangent<S> {
         let zero = S::zero();
         let [vn, vt, vp] = self.v;
-        let slope = self.slope;
-        let bend = -pulley.curvature;
+        let Meridian {
+            curvature,
+            unit,
+            lever,
+            ..
+        } = self.meridian;
+        let slope = self.slope * unit;
+        let bend = -curvature * unit;
         let turn = self.distance.recip() * gq;
-        let m = [S::constant(1.0), zero, -slope];
-        let a = [slope, zero, S::constant(1.0)];
+        let m = [S::constant(unit), zero, -slope];
+        let a = [slope, zero, S::constant(unit)];
         let (fn_, [ft, fa]) = (self.normal_force, self.friction);
         // Gradients by position and velocity, combined.
         let normal_by = [
             -(m[0] * (self.by_penetration * gq + self.by_rate * gv)),
-            -(self.by_rate * vt * turn),
+            -(self.by_rate * vt * turn * unit),
             -(m[2] * (self.by_penetration * gq + self.by_rate * gv))
                 + self.by_rate * vp * (bend * gq),
         ];
         let slip_by = [
-            [zero, -(vn * turn) + gv, -(self.speed * slope * gq)],
+            [
+                -(self.speed * ((1.0 - lever) * gq)),
+                -(vn * turn) + gv,
+                -(self.speed * self.slope * (lever * gq)),
+            ],
             [a[0] * gv, slope * vt * turn, a[2] * gv + vn * (bend * gq)],
         ];
         let mut friction_by = [[zero; 3]; 2];
@@ -273,11 +291,11 @@ impl<S: Scalar> SurfacePoint<S> {
         // Rows n, t, p of the derivative of the force.
         let mut rows = [[zero; 3]; 3];
         for k in 0..3 {
-            rows[0][k] = normal_by[k] + slope * friction_by[1][k];
+            rows[0][k] = normal_by[k] * unit + slope * friction_by[1][k];
             rows[1][k] = friction_by[0][k];
-            rows[2][k] = friction_by[1][k] - slope * normal_by[k];
+            rows[2][k] = friction_by[1][k] * unit - slope * normal_by[k];
         }
-        rows[1][1] += (fn_ + fa * slope) * turn;
+        rows[1][1] += (fn_ * unit + fa * slope) * turn;
         rows[2][2] -= fn_ * (bend * gq);
         rows[0][1] -= ft * turn;
         rows[0][2] += fa * (bend * gq);
@@ -300,7 +318,7 @@ impl<S: Scalar> SurfacePoint<S> {
             self.distance * friction_by[0][1],
             self.distance * friction_by[0][2],
         ];
-        let by_speed = -(self.radius * gv);
+        let by_speed = -(self.lever * gv);
         let by_pulley = [
             self.friction_by_slip[0][0] * by_speed,
             self.friction_by_slip[1][0] * by_speed,
@@ -308,7 +326,11 @@ impl<S: Scalar> SurfacePoint<S> {
         SurfaceTangent {
             force,
             force_by_pulley: combine(
-                [-(slope * by_pulley[1]), -by_pulley[0], -by_pulley[1]],
+                [
+                    -(slope * by_pulley[1]),
+                    -by_pulley[0],
+                    -(by_pulley[1] * unit),
+                ],
                 n,
                 t,
                 p,
