@@ -3,7 +3,7 @@
 use super::block_size::BlockSize;
 use super::cyclic::{Front, Sizes, Slab};
 use super::kernel::{
-    Aligned, LANES, accumulate, negative_inverse, raise, transpose, vectors, vectors_mut,
+    Aligned, LANES, accumulate, larger, negative_inverse, raise, transpose, vectors, vectors_mut,
 };
 use super::tail::Tail;
 use super::{BorderedMatrix, Structure};
@@ -245,7 +245,7 @@ impl<S: Simd, B: BlockSize> Step<'_, S, B> {
         );
         let magnitudes = vectors_mut::<S>(&mut front.magnitude);
         for (magnitude, value) in magnitudes.iter_mut().zip(vectors::<S>(&front.corner)) {
-            *magnitude = simd.max_f64s(*magnitude, simd.abs_f64s(*value));
+            *magnitude = larger(simd, *magnitude, *value);
         }
     }
 

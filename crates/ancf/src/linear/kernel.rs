@@ -111,6 +111,13 @@ pub(super) fn transpose(
     }
 }
 
+/// `max(most, |value|)`. The library's magnitude is a complement that compilers do not inline into code for the
+/// widest registers: a call for each of them.
+#[inline(always)]
+pub(super) fn larger<S: Simd>(simd: S, most: S::f64s, value: S::f64s) -> S::f64s {
+    simd.max_f64s(most, simd.max_f64s(value, simd.neg_f64s(value)))
+}
+
 /// `scale[r] = max(scale[r], |panel[c][r]|)` over all rows `c` of a square panel.
 #[inline(always)]
 pub(super) fn raise<S: Simd>(simd: S, scale: &mut [f64], panel: &[f64], size: impl BlockSize) {
@@ -120,7 +127,7 @@ pub(super) fn raise<S: Simd>(simd: S, scale: &mut [f64], panel: &[f64], size: im
     for j in 0..width {
         let mut largest = scale[j];
         for c in 0..size.get() {
-            largest = simd.max_f64s(largest, simd.abs_f64s(rows[c * width + j]));
+            largest = larger(simd, largest, rows[c * width + j]);
         }
         scale[j] = largest;
     }

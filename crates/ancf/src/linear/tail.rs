@@ -2,7 +2,7 @@
 
 use super::block_size::Dynamic;
 use super::kernel::{
-    Aligned, VANISHED, accumulate_vector, padded, swap_rows, sweep, vectors, vectors_mut,
+    Aligned, VANISHED, accumulate_vector, larger, padded, swap_rows, sweep, vectors, vectors_mut,
 };
 use pulp::Simd;
 
@@ -114,8 +114,7 @@ impl Tail {
             let pivot_row = vectors::<S>(&self.entries[k * stride..][..stride]);
             let magnitude = vectors_mut::<S>(&mut self.magnitude[column * stride..][..stride]);
             for (magnitude, value) in magnitude.iter_mut().zip(pivot_row) {
-                let term = simd.abs_f64s(simd.mul_f64s(factor, *value));
-                *magnitude = simd.max_f64s(*magnitude, term);
+                *magnitude = larger(simd, *magnitude, simd.mul_f64s(factor, *value));
             }
         }
     }
