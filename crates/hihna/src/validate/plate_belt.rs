@@ -8,7 +8,7 @@ use super::{CaseError, Quantities};
 use crate::input;
 use crate::observe::ProfileRow;
 use crate::steady::drive_string::DriveString;
-use crate::steady::string::{Answer, Closure, Model};
+use crate::steady::string::{Answer, Closure, Model, Running};
 
 const MODEL_1: &str = include_str!("../../../../examples/plate_model_1.toml");
 const MODEL_2: &str = include_str!("../../../../examples/plate_model_2.toml");
@@ -79,6 +79,10 @@ const END: &str = "run.end_time=1.3";
 const COARSER: &str = "run.accuracy=4e-3";
 /// Belts seen in the steady window, not in step with the passage of elements.
 const PROFILES: u32 = 30;
+/// Parts of an arc over which forces are averaged.
+const SECTIONS: usize = 24;
+/// Rows along the string, about: 3e-3 rad apart.
+const STRING_ROWS: usize = 4000;
 
 /// Model 2: a run and what its records say.
 struct Model2 {
@@ -173,7 +177,8 @@ pub(super) fn figures_4_12_to_4_18() -> Result<Quantities, CaseError> {
     let [fine, recommended, ..] = models.as_slice() else {
         return Err(CaseError::DoesNotRun);
     };
-    let string = analytical()?;
+    let full = Analytical::new(Model::Full)?;
+    let capstan = Analytical::new(Model::Capstan)?;
     let mut quantities = Quantities::new();
     for (model, (reading, _)) in models[1..].iter().zip(READINGS) {
         quantities.extend([
@@ -221,23 +226,76 @@ pub(super) fn figures_4_12_to_4_18() -> Result<Quantities, CaseError> {
         ),
         (
             "slack span over the analytical one, speed".to_owned(),
-            slack_speed / string,
+            slack_speed / full.slack_speed(),
         ),
         (
             "least normal force on the driven pulley".to_owned(),
             pressing.fold(f64::INFINITY, f64::min),
         ),
     ]);
+    let [from_full, from_capstan] = [&full, &capstan].map(|string| string.distances(recommended));
+    for (i, force) in ["normal", "friction"].into_iter().enumerate() {
+        quantities.extend([
+            (
+                format!("{force} force, distance from the full model"),
+                from_full[i],
+            ),
+            (
+                format!("{force} force, distance from the capstan model over that"),
+                from_capstan[i] / from_full[i],
+            ),
+        ]);
+    }
     Ok(quantities)
 }
 
-/// Speed of the slack span of the extensible string with inertia, full model [m/s].
-fn analytical() -> Result<f64, CaseError> {
-    let drive = input::parse("string_model_2.toml", STRING, &[])?;
-    let string = DriveString::new(&drive, Model::Full, Closure::UnstretchedLength)?;
-    let Answer::Running(running) = string.solve()? else {
-        return Err(CaseError::DoesNotRun);
-    };
-    let slowest = (string.spans(&running).iter()).fold(f64::INFINITY, |v, span| v.min(span.speed));
-    Ok(slowest)
+/// The extensible string with inertia.
+struct Analytical {
+    string: DriveString,
+    running: Running,
+}
+
+impl Analytical {
+    fn new(model: Model) -> Result<Self, CaseError> {
+        let drive = input::parse("string_model_2.toml", STRING, &[])?;
+        let string = DriveString::new(&drive, model, Closure::UnstretchedLength)?;
+        let Answer::Running(running) = string.solve()? else {
+            return Err(CaseError::DoesNotRun);
+        };
+        Ok(Self { string, running })
+    }
+
+    /// Speed of the slack span [m/s].
+    fn slack_speed(&self) -> f64 {
+        let spans = self.string.spans(&self.running);
+        spans
+            .iter()
+            .fold(f64::INFINITY, |v, span| v.min(span.speed))
+    }
+
+    /// Root mean square, over both pulleys, of what normal and friction force of `model` lie beside those of the
+    /// string [N/m].
+    fn distances(&self, model: &Model2) -> [f64; 2] {
+        let rows = self.string.profile(&self.running, STRING_ROWS);
+        let run = &model.run;
+        let (mut squares, mut count) = ([0.0; 2], 0_u32);
+        for (p, pulley) in run.drive.pulley.iter().enumerate() {
+            let on_pulley: Vec<(f64, &ProfileRow)> = (rows.iter())
+                .filter(|row| row.pulley == pulley.name)
+                .map(|row| (run.angle(p, row), row))
+                .collect();
+            for section in run.sections(p, SECTIONS, 0.0) {
+                let beside = |angle: f64| (angle - section.angle).abs();
+                let nearest = on_pulley
+                    .iter()
+                    .min_by(|a, b| beside(a.0).total_cmp(&beside(b.0)));
+                if let Some((_, row)) = nearest {
+                    squares[0] += (section.normal_force - row.normal_force).powi(2);
+                    squares[1] += (section.friction_force - row.friction_force).powi(2);
+                    count += 1;
+                }
+            }
+        }
+        squares.map(|square| (square / f64::from(count)).sqrt())
+    }
 }
