@@ -207,6 +207,7 @@ fn integrate_hits_kinks_and_keeps_energy() {
             method,
             step: 1.0e-4,
             error_tolerance: Some(1.0e-4),
+            tightened: Vec::new(),
             newton_tolerance: 1.0e-9,
             kinks: kinks.clone(),
             jumps: Vec::new(),

@@ -238,6 +238,7 @@ fn a_swing_in_space_keeps_its_energy() {
             method: Method::GeneralizedAlpha,
             step: 1.0e-3,
             error_tolerance: None,
+            tightened: Vec::new(),
             newton_tolerance: 1.0e-9,
             kinks: Vec::new(),
             jumps: Vec::new(),

@@ -356,7 +356,8 @@ fn run<E: Element, L: PulleyLaw<E>>(
         end,
         &control,
         |system, window| {
-            let pace = recorder.step(system, window);
+            let slowness = control.tightening(window.to.time);
+            let pace = recorder.step(system, window, slowness);
             steps += 1;
             let progress = Progress {
                 time: window.to.time,

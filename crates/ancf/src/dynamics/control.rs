@@ -26,6 +26,8 @@ const MAX_HALVINGS: u32 = 10;
 const FALLBACK_STEPS: usize = 32;
 /// How far before a jump of the forces a step ends, by the length of a step: nothing moves in that time.
 const BEFORE_A_JUMP: f64 = 1.0e-9;
+/// Steps in which motion settles after a jump: doubled as they are, the last is a thousand times the first.
+const AFTER_A_JUMP: usize = 32;
 /// Good steps before the step is doubled.
 const PATIENCE: usize = 3;
 /// Halvings that an observer may ask for beyond what errors of prediction call for.
@@ -54,13 +56,15 @@ pub struct Control {
     pub step: f64,
     /// Accepted difference [m/s] between predicted and found velocities; `None` for a fixed step.
     pub error_tolerance: Option<f64>,
+    /// Until these times [s], in order, `error_tolerance` is multiplied by these factors: where motion begins slowly.
+    pub tightened: Vec<(f64, f64)>,
     /// Error of the velocities [m/s] at which Newton stops.
     pub newton_tolerance: f64,
     /// Times that steps must hit [s].
     pub kinks: Vec<f64>,
-    /// Times at which forces jump [s]: a step ends just before, the next begins at the jump with new
-    /// accelerations.
-    pub jumps: Vec<f64>,
+    /// Times at which forces jump [s], and what `error_tolerance` is multiplied by while motion settles after it: a
+    /// step ends just before, the next begins at the jump with new accelerations.
+    pub jumps: Vec<(f64, f64)>,
 }
 
 impl Control {
@@ -71,10 +75,26 @@ impl Control {
             method,
             step,
             error_tolerance: None,
+            tightened: Vec::new(),
             newton_tolerance: 1.0e-9,
             kinks: Vec::new(),
             jumps: Vec::new(),
         }
+    }
+
+    /// The factor of a jump at `time`.
+    fn jump_at(&self, time: f64) -> Option<f64> {
+        (self.jumps.iter())
+            .find(|(jump, _)| jump.to_bits() == time.to_bits())
+            .map(|(_, factor)| *factor)
+    }
+
+    /// What the error tolerance of a step up to `time` is multiplied by.
+    #[must_use]
+    pub fn tightening(&self, time: f64) -> f64 {
+        (self.tightened.iter())
+            .find(|(until, _)| time <= *until)
+            .map_or(1.0, |(_, factor)| *factor)
     }
 }
 
@@ -154,6 +174,11 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
     mut observe: impl FnMut(&mut S, Window<'_>) -> ControlFlow<(), P>,
 ) -> Result<Statistics, IntegrationError> {
     let size = motion.q.len();
+    // Where forces jump at the end, the last step ends before: what they are behind it is no part of the run.
+    let end = match control.jump_at(end) {
+        Some(_) => end * (1.0 - 8.0 * f64::EPSILON),
+        None => end,
+    };
     let mut stage = Stage::new(system, control.newton_tolerance);
     stage.accelerations(system, motion);
     motion.algorithmic.copy_from_slice(&motion.a);
@@ -178,6 +203,9 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
     let mut asked = Asked::default();
     for boundary in boundaries {
         let mut grid = Grid::new(motion.time, boundary, control.step, level);
+        let tightening = control.tightening(boundary);
+        let after_jump = control.jump_at(motion.time);
+        let mut settling = after_jump.map_or(0, |_| AFTER_A_JUMP);
         let mut good = 0;
         let mut failures = 0;
         while !grid.is_done() {
@@ -202,7 +230,9 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
                 Ok(()) => failures = 0,
             }
             let mut may_double = true;
-            if let Some(tolerance) = control.error_tolerance {
+            if let Some(most) = control.error_tolerance {
+                let after_jump = after_jump.filter(|_| settling > 0).unwrap_or(1.0);
+                let tolerance = most * tightening.min(after_jump);
                 let error =
                     prediction_error(&positions, motion, &next, &mut difference) / tolerance;
                 if error > 1.0 && grid.refine() {
@@ -212,6 +242,7 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
                 }
                 may_double = error < 0.4;
             }
+            settling = settling.saturating_sub(1);
             grid.advance();
             next.time = grid.time();
             stage.statistics.steps += 1;
@@ -253,13 +284,13 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
     Ok(stage.statistics)
 }
 
-/// The jumps of the forces: the last time before each, and its own.
+/// Jumps of the forces: the last time before each, and its own.
 struct Jumps(Vec<(f64, f64)>);
 
 impl Jumps {
     fn within(control: &Control, start: f64, end: f64) -> Self {
         let before = |jump: f64| jump - BEFORE_A_JUMP * control.step;
-        let jumps = control.jumps.iter().copied();
+        let jumps = control.jumps.iter().map(|(jump, _)| *jump);
         Self(
             jumps
                 .filter(|jump| before(*jump) > start && *jump < end)

@@ -16,39 +16,106 @@ const REFERENCE_ACCURACY: f64 = 1.0e-3;
 /// by less than 1e-4 of it between them.
 const PREDICTION_TOLERANCE: f64 = 0.03;
 
+/// [`PREDICTION_TOLERANCE`] after a velocity has jumped, times this and relative to that jump: steps are a seventh of the
+/// time in which the belt follows, `(h / tau)² / 2 = 0.3 * 0.03`, so that the energy that this dissipates is resolved.
+const AFTER_A_JUMP: f64 = 0.3;
+
 /// Largest step relative to `1 / omega` of the slowest swing, or of the fastest prescribed irregularity: its
 /// second-order dispersion `(omega h)² / 12` is 2e-4 then.
 const SWING_STEP: f64 = 0.05;
 
-/// Surface speed of the fastest driver [m/s]; where nothing is driven, a hundredth of the belt's
-/// longitudinal wave speed.
+/// Slowest speed to which tolerances are fitted, relative to that of [`wave_bound`]: rounding of slower motion is no
+/// longer far below them.
+const SLOWEST: f64 = 1.0e-3;
+
+/// Greatest prescribed speed of a surface or a hub [m/s]; where nothing moves, a hundredth of the belt's longitudinal
+/// wave speed.
 #[must_use]
 pub fn nominal_speed(drive: &Drive) -> f64 {
-    let driven = drive
-        .pulley
-        .iter()
-        .map(|pulley| {
-            let speed = pulley.speed.as_ref().map_or(0.0, Profile::bound);
-            let turning = pulley.angle.as_ref().map_or(0.0, slope_bound);
-            speed.max(turning) * pulley.radius
-        })
-        .fold(0.0, f64::max);
-    if driven > 0.0 {
-        driven
+    let prescribed = fastest_until(drive, f64::INFINITY);
+    if prescribed > 0.0 {
+        prescribed.max(SLOWEST * wave_bound(drive))
     } else {
-        0.01 * (drive.belt.axial_factor * drive.belt.youngs_modulus / drive.belt.density).sqrt()
+        wave_bound(drive)
     }
 }
 
-/// Greatest magnitude of the derivative: every kind of piece has it at its start or in its middle.
-fn slope_bound(profile: &Profile) -> f64 {
-    let kinks = profile.kinks();
-    let middles = kinks.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+/// A hundredth of the belt's longitudinal wave speed [m/s].
+fn wave_bound(drive: &Drive) -> f64 {
+    0.01 * (drive.belt.axial_factor * drive.belt.youngs_modulus / drive.belt.density).sqrt()
+}
+
+/// Greatest prescribed speed of a surface or a hub up to `time` [m/s].
+fn fastest_until(drive: &Drive, time: f64) -> f64 {
+    (drive.pulley.iter())
+        .map(|pulley| {
+            let speed = (pulley.speed.as_ref()).map_or(0.0, |speed| value_bound(speed, time));
+            let turning = (pulley.angle.as_ref()).map_or(0.0, |angle| slope_bound(angle, time));
+            let hub = pulley.displacement.as_ref().map_or(0.0, |hub| {
+                let [x, y, z] = [&hub.x, &hub.y, &hub.z].map(|axis| slope_bound(axis, time));
+                x.hypot(y).hypot(z)
+            });
+            (speed.max(turning) * pulley.radius).max(hub)
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Greatest magnitude up to `time`: pieces between kinks are monotonic.
+fn value_bound(profile: &Profile, time: f64) -> f64 {
+    if time.is_infinite() {
+        return profile.bound();
+    }
+    let kinks = profile.kinks().into_iter().filter(|kink| *kink < time);
     kinks
-        .iter()
-        .copied()
-        .chain(middles)
+        .chain([0.0, time])
+        .fold(0.0, |bound, t| f64::max(bound, profile.value(t).abs()))
+}
+
+/// Greatest magnitude of the derivative up to `time`: every kind of piece has it at its start or in its middle.
+fn slope_bound(profile: &Profile, time: f64) -> f64 {
+    let kinks = profile.kinks();
+    let middles = kinks
+        .windows(2)
+        .map(|pair| 0.5 * (pair[0] + pair[1].min(time)));
+    let starts = kinks.iter().copied().filter(|kink| *kink < time);
+    (starts.chain(middles.filter(|middle| *middle < time)))
         .fold(0.0, |bound, t| f64::max(bound, profile.derivative(t).abs()))
+}
+
+/// Times at which a hub changes its velocity at once, so that damping and friction of the contact jump, and by how much
+/// relative to the nominal `speed`.
+fn jumps(drive: &Drive, speed: f64) -> Vec<(f64, f64)> {
+    let least = SLOWEST * wave_bound(drive) / speed;
+    let mut jumps = Vec::new();
+    for hub in drive.pulley.iter().filter_map(|p| p.displacement.as_ref()) {
+        let axes = [&hub.x, &hub.y, &hub.z];
+        for kink in axes.iter().flat_map(|axis| axis.kinks()) {
+            let before = if kink > 0.0 { kink.next_down() } else { -1.0 };
+            let [x, y, z] = axes.map(|axis| axis.derivative(kink) - axis.derivative(before));
+            let factor = AFTER_A_JUMP * x.hypot(y).hypot(z) / speed;
+            jumps.push((
+                kink,
+                if factor > 0.0 {
+                    factor.clamp(least.min(1.0), 1.0)
+                } else {
+                    1.0
+                },
+            ));
+        }
+    }
+    jumps.sort_by(|a, b| a.0.total_cmp(&b.0));
+    jumps
+}
+
+/// Times up to which all prescribed motion is slower than the nominal `speed`, and how much slower: tolerances are
+/// relative to what moves, so that the balance of a tensioner that is drawn before the drive starts closes too.
+fn slower_beginnings(drive: &Drive, speed: f64, kinks: &[f64]) -> Vec<(f64, f64)> {
+    let least = (SLOWEST * wave_bound(drive) / speed).min(1.0);
+    (kinks.iter().copied().chain([drive.run.end_time]))
+        .map(|until| (until, fastest_until(drive, until) / speed))
+        .filter(|(until, factor)| *until > 0.0 && *factor > 0.0 && *factor < 1.0)
+        .map(|(until, factor)| (until, factor.max(least)))
+        .collect()
 }
 
 /// Step, tolerances and kinks of a run.
@@ -89,20 +156,17 @@ pub(super) fn control(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> Co
         .flatten()
         .flat_map(crate::profile::Profile::kinks)
         .collect();
-    // Where a hub changes its velocity at once, damping and friction of the contact jump.
-    let mut jumps: Vec<f64> = drive
-        .pulley
-        .iter()
-        .filter_map(|pulley| pulley.displacement.as_ref())
-        .flat_map(|hub| [&hub.x, &hub.y, &hub.z])
-        .flat_map(crate::profile::Profile::kinks)
-        .collect();
-    jumps.sort_by(f64::total_cmp);
+    let jumps = jumps(drive, speed);
     kinks.sort_by(f64::total_cmp);
+    let mut changes: Vec<f64> = (jumps.iter().map(|(jump, _)| *jump))
+        .chain(kinks.iter().copied())
+        .collect();
+    changes.sort_by(f64::total_cmp);
     Control {
         method,
         step,
         error_tolerance,
+        tightened: slower_beginnings(drive, speed, &changes),
         newton_tolerance: 2.0e-7 * speed * (run.accuracy / REFERENCE_ACCURACY),
         kinks,
         jumps,

@@ -49,8 +49,8 @@ pub(super) struct Recorder {
     largest_residual: f64,
     /// Time of the last accepted state [s].
     last_time: f64,
-    /// Kinetic energy at nominal speed and strain energy at rest [J].
-    held: f64,
+    /// Kinetic energy at nominal speed [J].
+    kinetic: f64,
     tolerance: f64,
     /// Mean tension at rest [N].
     rest_tension: f64,
@@ -103,7 +103,7 @@ impl Recorder {
             residual: 0.0,
             largest_residual: 0.0,
             last_time: 0.0,
-            held: 0.0,
+            kinetic: 0.0,
             tolerance: 0.1 * drive.run.accuracy,
             rest_tension: 0.0,
             momenta: vec![Momentum::default(); names.len()],
@@ -123,7 +123,7 @@ impl Recorder {
         system.prescribe(begun.time, &mut begun.q, &mut begun.v, &mut begun.a);
         self.observer.survey(system, &begun);
         self.initial = self.observer.stored(system, &begun);
-        self.held = self.initial.strain + kinetic_at_nominal_speed(drive, &assembly.mounting);
+        self.kinetic = kinetic_at_nominal_speed(drive, &assembly.mounting);
         self.powers = self.observer.powers(system, &begun);
         for (p, momentum) in self.momenta.iter_mut().enumerate() {
             let (speed, torque) = self.observer.momentum(system, &begun, p);
@@ -140,11 +140,12 @@ impl Recorder {
     }
 
     /// Takes the step of `window` in: balances first, then rows at the output times within it. Returns the
-    /// pace that keeps the energy balance.
+    /// pace that keeps the energy balance, of a drive that has moved with `slowness` times its nominal speed at most.
     pub fn step<E: Element, L: PulleyLaw<E>>(
         &mut self,
         system: &System<E, L>,
         window: Window<'_>,
+        slowness: f64,
     ) -> Pace {
         let (t0, t1) = (window.from.time, window.to.time);
         let step = t1 - t0;
@@ -183,7 +184,7 @@ impl Recorder {
 
         let stored = self.observer.stored(system, window.to);
         let residual = self.residual(&stored, &self.work);
-        let pace = self.pace(residual);
+        let pace = self.pace(residual, slowness);
         self.residual = residual;
         self.largest_residual = self.largest_residual.max(residual.abs());
 
@@ -253,9 +254,11 @@ impl Recorder {
     }
 
     /// Shorter steps while more than half of the tolerated energy is missing and the balance goes on
-    /// worsening. What the drive holds at nominal speed counts as turned over, as every work has a start.
-    fn pace(&self, residual: f64) -> Pace {
-        let allowed = 0.5 * self.tolerance * (self.work.turnover + self.held);
+    /// worsening. What the drive holds at the part `slowness` of its nominal speed counts as turned over, as every work
+    /// has a start.
+    fn pace(&self, residual: f64, slowness: f64) -> Pace {
+        let held = self.kinetic * slowness * slowness;
+        let allowed = 0.5 * self.tolerance * (self.work.turnover + held);
         if residual.abs() > allowed && residual.abs() > self.residual.abs() {
             Pace::Finer
         } else if residual.abs() > 0.8 * allowed {

@@ -118,6 +118,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 pub(super) fn costs() -> Result<Quantities, CaseError> {
     let control = Control {
         error_tolerance: Some(1.0e-2),
+        tightened: Vec::new(),
         ..Control::fixed(Method::Auto, 1.0e-2)
     };
     let mut quantities = Quantities::new();
