@@ -89,6 +89,7 @@ const COMPUTATIONS: &[(&str, Compute)] = &[
         string_drive::contact_forces,
     ),
     ("chapter-4-plate/figure-4.10", plate_belt::figure_4_10),
+    ("chapter-4-plate/planar", plate_belt::planar_drives),
     (
         "chapter-4-plate/figures-4.12-4.18",
         plate_belt::figures_4_12_to_4_18,

@@ -66,6 +66,99 @@ pub(super) fn figure_4_10() -> Result<Quantities, CaseError> {
     ])
 }
 
+/// The drive of plates `text` as one of belt beams: the same but for what only plates have.
+fn planar(text: &str) -> String {
+    const OF_PLATES: [&str; 3] = ["elements_across", "bending", "profile_line"];
+    let lines = text.lines();
+    let shared = lines.filter(|line| !OF_PLATES.iter().any(|field| line.starts_with(field)));
+    shared.flat_map(|line| [line, "\n"]).collect()
+}
+
+/// What contact takes per area of plates, per length of beams 80 mm and 40 mm wide.
+const PER_LENGTH_1: [&str; 4] = [
+    "belt.element=belt-beam",
+    "contact.stiffness=8e5",
+    "contact.damping=160",
+    "contact.friction.slope=8e3",
+];
+const PER_LENGTH_2: [&str; 4] = [
+    "belt.element=belt-beam",
+    "contact.stiffness=3.2e6",
+    "contact.damping=80",
+    "contact.friction.slope=8e3",
+];
+/// Models of nu = 0; Model 1 as it is and half as thick with the same E A and mass; Model 2 a membrane, its beams next
+/// to one.
+const THICK: [&str; 2] = ["belt.poisson_ratio=0", "belt.elements=48"];
+const THIN: [&str; 5] = [
+    "belt.poisson_ratio=0",
+    "belt.elements=48",
+    "belt.thickness=5 mm",
+    "belt.youngs_modulus=20 MPa",
+    "belt.density=2072",
+];
+const MEMBRANE: [&str; 1] = ["belt.bending_factor=1e-3"];
+
+/// Belts of plates and of belt beams where they are the same belt.
+pub(super) fn planar_drives() -> Result<Quantities, CaseError> {
+    let as_beams = [planar(MODEL_1), planar(MODEL_2)];
+    let coarse = ["belt.poisson_ratio=0", END, COARSER];
+    let changes = [
+        (MODEL_1, THICK.to_vec()),
+        (&as_beams[0], [&THICK[..], &PER_LENGTH_1].concat()),
+        (MODEL_1, THIN.to_vec()),
+        (&as_beams[0], [&THIN[..], &PER_LENGTH_1].concat()),
+        (MODEL_2, coarse.to_vec()),
+        (
+            &as_beams[1],
+            [&coarse[..], &MEMBRANE, &PER_LENGTH_2].concat(),
+        ),
+    ];
+    let runs = (changes.par_iter())
+        .map(|(text, changes)| TimeRun::new(text, changes))
+        .collect::<Result<Vec<TimeRun>, CaseError>>()?;
+    let [
+        plates_1,
+        beams_1,
+        thin_plates,
+        thin_beams,
+        plates_2,
+        beams_2,
+    ] = runs.as_slice()
+    else {
+        return Err(CaseError::DoesNotRun);
+    };
+    let tighter = |plates: &TimeRun, beams: &TimeRun| {
+        let belt = &plates.drive.belt;
+        let rigidity = belt.youngs_modulus * belt.width * belt.thickness.powi(3) / 12.0;
+        let coupling = rigidity / plates.drive.pulley[0].radius.powi(2);
+        (plates.outcome.start.tension - beams.outcome.start.tension) / coupling
+    };
+    let model_2 = plates_2.mean("driven.speed", STEADY)? - beams_2.mean("driven.speed", STEADY)?;
+    Ok(vec![
+        (
+            "Model 1, driven speed, whole run".to_owned(),
+            difference(plates_1, beams_1, 0.0)? / 12.0 * 100.0,
+        ),
+        (
+            "Model 1, tension at rest, over E I / R2".to_owned(),
+            tighter(plates_1, beams_1),
+        ),
+        (
+            "Model 1 half as thick, driven speed, whole run".to_owned(),
+            difference(thin_plates, thin_beams, 0.0)? / 12.0 * 100.0,
+        ),
+        (
+            "Model 1 half as thick, tension at rest, over E I / R2".to_owned(),
+            tighter(thin_plates, thin_beams),
+        ),
+        (
+            "Model 2, driven speed, mean".to_owned(),
+            model_2.abs() / 500.0 * 100.0,
+        ),
+    ])
+}
+
 /// What "50 N" may mean: E A times Green's strain, E A times the engineering strain, the true force.
 const READINGS: [(&str, &str); 3] = [
     ("E A Green's strain", "belt.strain=0.22474487139158905"),
