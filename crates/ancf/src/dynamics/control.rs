@@ -187,21 +187,10 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
     let positions = VectorNorm::of_positions(system);
     let mut difference = vec![0.0; size];
 
-    let mut boundaries: Vec<f64> = control
-        .kinks
-        .iter()
-        .copied()
-        .filter(|kink| *kink > motion.time && *kink < end)
-        .collect();
-    boundaries.push(end);
     let jumps = Jumps::within(control, motion.time, end);
-    boundaries.retain(|boundary| !jumps.hold(*boundary));
-    boundaries.extend(jumps.0.iter().map(|(before, _)| *before));
-    boundaries.sort_by(f64::total_cmp);
-    boundaries.dedup();
     let mut level = 0;
     let mut asked = Asked::default();
-    for boundary in boundaries {
+    for boundary in jumps.boundaries(control, motion.time, end) {
         let mut grid = Grid::new(motion.time, boundary, control.step, level);
         let tightening = control.tightening(boundary);
         let after_jump = control.jump_at(motion.time);
@@ -297,6 +286,18 @@ impl Jumps {
                 .map(|jump| (before(jump), jump))
                 .collect(),
         )
+    }
+
+    /// Where segments of smooth motion end, in order: at kinks, just before jumps, at `end`.
+    fn boundaries(&self, control: &Control, start: f64, end: f64) -> Vec<f64> {
+        let mut boundaries: Vec<f64> = (control.kinks.iter().copied())
+            .filter(|kink| *kink > start && *kink < end && !self.hold(*kink))
+            .chain(self.0.iter().map(|(before, _)| *before))
+            .chain([end])
+            .collect();
+        boundaries.sort_by(f64::total_cmp);
+        boundaries.dedup();
+        boundaries
     }
 
     /// Whether `time` is a jump.
