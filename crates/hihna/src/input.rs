@@ -17,14 +17,15 @@ mod check;
 mod document;
 mod number_field;
 mod overrides;
+mod place;
 mod problem;
 mod rules;
 mod shape;
 mod spatial;
 
-pub use document::{Place, Source};
 pub use number_field::{NumberField, NumberRefused, UnknownNumber};
 pub use overrides::Override;
+pub use place::{Place, Source};
 pub(crate) use problem::nearest;
 pub use problem::{FieldPath, InputError, InputErrors, Problem, Segment};
 

@@ -2,6 +2,7 @@
 
 mod belt;
 mod profile;
+mod section_table;
 mod space_beams;
 mod span;
 mod station;

@@ -357,15 +357,6 @@ pub(crate) fn point(generator: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "array", "items": length(generator), "minItems": 2, "maxItems": 2 })
 }
 
-/// Schema of the tilt of an axis about x and y [rad].
-pub(crate) fn tilt(generator: &mut SchemaGenerator) -> Schema {
-    let steepest = crate::drive::STEEPEST;
-    let mut angle = angle(generator);
-    angle.insert("minimum".to_owned(), (-steepest).into());
-    angle.insert("maximum".to_owned(), steepest.into());
-    json_schema!({ "type": "array", "items": angle, "minItems": 2, "maxItems": 2 })
-}
-
 /// Schema of a list of angular velocities [rad/s].
 pub(crate) fn angular_velocities(generator: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "array", "items": angular_velocity(generator), "minItems": 1 })

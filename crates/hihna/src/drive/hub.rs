@@ -1,14 +1,13 @@
 //! Where a pulley's hub is and how its surface is shaped: tilt, taper, crown, motion of the centre.
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
-use super::Pulley;
 use crate::profile::{self, Profile};
 use crate::units;
 
 /// Steepest tilt or taper [rad].
-pub(crate) const STEEPEST: f64 = 0.5;
+pub(super) const STEEPEST: f64 = 0.5;
 
 /// Motion of a pulley's centre: where it is, less where it starts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -52,38 +51,14 @@ pub struct Crown {
     pub width: f64,
 }
 
-fn still() -> Profile {
-    Profile::Constant(0.0)
+/// Schema of the tilt of an axis about x and y [rad].
+pub(super) fn tilt(generator: &mut SchemaGenerator) -> Schema {
+    let mut angle = units::angle(generator);
+    angle.insert("minimum".to_owned(), (-STEEPEST).into());
+    angle.insert("maximum".to_owned(), STEEPEST.into());
+    json_schema!({ "type": "array", "items": angle, "minItems": 2, "maxItems": 2 })
 }
 
-impl Pulley {
-    /// Its middle [m] at `time` [s], displacement and offset taken in.
-    pub fn middle(&self, time: f64) -> [f64; 3] {
-        let moved = self
-            .displacement
-            .as_ref()
-            .map_or([0.0; 3], |displacement| displacement.at(time)[0]);
-        let [x, y] = self.center;
-        [x + moved[0], y + moved[1], self.offset + moved[2]]
-    }
-
-    /// Unit vector of its axis: z turned by the tilt about x, then about y.
-    pub fn axis(&self) -> [f64; 3] {
-        let [(sx, cx), (sy, cy)] = self.tilt.map(f64::sin_cos);
-        [sy * cx, -sx, cy * cx]
-    }
-
-    /// Slope of the radius along the axis in the middle [-], and its decrease [1/m].
-    pub fn shape(&self) -> [f64; 2] {
-        let curvature = self.crown.map_or(0.0, |crown| {
-            8.0 * crown.height / (crown.width * crown.width)
-        });
-        [self.taper.tan(), curvature]
-    }
-
-    /// Whether it is not a cylinder about z in the plane of the drive.
-    pub fn is_misaligned(&self) -> bool {
-        let straight = self.crown.is_none_or(|crown| crown.height == 0.0);
-        !straight || self.offset != 0.0 || self.tilt != [0.0, 0.0] || self.taper != 0.0
-    }
+fn still() -> Profile {
+    Profile::Constant(0.0)
 }

@@ -4,12 +4,10 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use crate::input::check::{own_name, unknown_field};
-use crate::input::document::{Node, NodeValue, Place, Source, parse_value};
+use crate::input::document::{Node, NodeValue, parse_value};
+use crate::input::place::{OVERRIDE, Place, Source};
 use crate::input::problem::{FieldPath, InputError, InputErrors, Problem, nearest, quoted};
 use crate::input::shape::Shape;
-
-/// What places in overrides call their source.
-pub(crate) const SOURCE_NAME: &str = "--set";
 
 /// Fields of one table of which one replaces the others, so that `--set belt.tension=50` works on a
 /// drive whose file gives the length.
@@ -31,7 +29,7 @@ impl FromStr for Override {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let source = Arc::new(Source {
-            name: SOURCE_NAME.to_owned(),
+            name: OVERRIDE.to_owned(),
             text: text.to_owned(),
         });
         if let Some(key_length) = text.find('=') {
@@ -110,9 +108,7 @@ impl Override {
                 path.clone(),
                 format!("`{path}` is {}, so it has no `{name}`", node.value.kind()),
             )
-            .help(format!(
-                "set it as a whole: {SOURCE_NAME} '{path}={{ ... }}'"
-            ));
+            .help(format!("set it as a whole: {OVERRIDE} '{path}={{ ... }}'"));
             return Err(Box::new(problem));
         };
         if rest.is_empty() {
@@ -121,7 +117,7 @@ impl Override {
         let new = !entries.iter().any(|(entry, _)| entry == name);
         if let (true, Shape::List(..), [item, ..]) = (new, &field.shape, rest) {
             let message = format!("the drive file has no `{place}`, so it has no item `{item}`");
-            let help = format!("set it as a whole: {SOURCE_NAME} '{place}=[...]'");
+            let help = format!("set it as a whole: {OVERRIDE} '{place}=[...]'");
             let problem = Problem::new(place, message).expected(field.shape.expectation());
             return Err(Box::new(problem.help(help)));
         }

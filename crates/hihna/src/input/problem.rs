@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
-use crate::input::document::Place;
+use crate::input::place::Place;
 
 /// Where a value stands in a drive: `belt.length`, `pulley.driven.radius`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

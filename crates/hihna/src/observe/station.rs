@@ -5,8 +5,8 @@ use ancf::element::{Element, LineElement};
 use ancf::mesh::Mesh;
 use ancf::system::{ForceLaw, State};
 
+use super::section_table::SectionTables;
 use super::state;
-use super::surface::SectionTables;
 use crate::contact::{BeltContact, BeltPoint, ContactPulley, PulleyContact};
 use crate::load::ExternalTorque;
 
