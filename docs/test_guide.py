@@ -142,3 +142,33 @@ def test_the_tutorial_prints_what_its_commands_print(tmp_path):
             assert f"the power lost is {steady['power_lost']:.1f} W of {steady['power_in']:.0f} W" in words
             grip = 100 * max(pulley["slip_angle"] / pulley["contact_angle"] for pulley in (motor, fan))
             assert f"*Grip used* is {grip:.1f} %" in words
+
+
+def test_the_reference_of_the_program_has_every_option():
+    page = (ROOT / "docs" / "src" / "guide" / "cli.md").read_text(encoding="utf-8")
+    help_of = lambda *command: subprocess.run(
+        [os.environ["HIHNA"], *command, "--help"], capture_output=True, text=True, check=True
+    ).stdout
+    commands = re.findall(r"^  (\w+)  ", help_of().split("Commands:")[1].split("Options:")[0], re.MULTILINE)
+    assert {"run", "steady", "validate"} <= set(commands)
+    for command in set(commands) - {"help"}:
+        section = page.split(f"## `hihna {command}`")[1].split("\n## ")[0]
+        everywhere = page.split("## Options of all commands")[1].split("\n## ")[0]
+        options = re.findall(r"^ +(?:-\w, )?(--[\w-]+)", help_of(command), re.MULTILINE)
+        assert "--help" in options
+        missing = [option for option in options if f"`{option}" not in section + everywhere]
+        assert not missing, f"{command}: {missing}"
+
+
+def test_the_reference_of_the_package_has_every_name():
+    page = (ROOT / "docs" / "src" / "guide" / "python.md").read_text(encoding="utf-8")
+    code = " ".join(re.findall(r"`([^`]+)`", re.sub(r"^```.*?^```", "", page, flags=re.MULTILINE | re.DOTALL)))
+    words = set(re.findall(r"\w+", code))
+    of = lambda thing: {name for name in vars(thing) if not name.startswith("_")}
+    names = {name for name in hihna.__all__ if not name.startswith("_")} | set(hihna.ancf.__all__) - {"Motion", "Structure"}
+    for kind in (hihna.Drive, hihna.Results, *(getattr(hihna.ancf, name) for name in hihna.ancf.__all__)):
+        if isinstance(kind, type):
+            names |= of(kind) | set(getattr(kind, "__dataclass_fields__", ()))
+    # What sections and materials are made of stands in their own words.
+    names -= {field for kind in (hihna.ancf.Section, hihna.ancf.SpatialSection) for field in kind.__dataclass_fields__}
+    assert not names - words

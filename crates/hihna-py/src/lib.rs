@@ -5,6 +5,8 @@ mod drive;
 mod errors;
 mod plate;
 mod results;
+mod space_beam;
+mod structure;
 mod user_laws;
 mod user_motion;
 
@@ -22,5 +24,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<drive::NativeDrive>()?;
     module.add_class::<results::NativeResults>()?;
     module.add_class::<beam::NativeBeam>()?;
+    module.add_class::<space_beam::NativeSpaceBeam>()?;
+    module.add_function(wrap_pyfunction!(space_beam::rectangle, module)?)?;
+    module.add_function(wrap_pyfunction!(space_beam::tube, module)?)?;
+    module.add_function(wrap_pyfunction!(space_beam::trapezoid, module)?)?;
     module.add_class::<plate::NativePlate>()
 }

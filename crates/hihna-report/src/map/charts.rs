@@ -49,6 +49,7 @@ pub fn charts(map: &Map) -> Vec<Chart> {
         found.then(|| Chart {
             title: format!("{} [{}]", quantity.title, quantity.unit),
             plot,
+            ranges: String::new(),
         })
     };
     quantities.filter_map(chart).collect()
