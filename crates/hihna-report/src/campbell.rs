@@ -22,7 +22,7 @@ pub const FILE: &str = "campbell.csv";
 /// What is drawn of every mode: the end of its column, what it is, its unit.
 const QUANTITIES: [(&str, &str, &str); 4] = [
     ("frequency", "Natural frequency", "Hz"),
-    ("growth", "Rate of growth, positive where unstable", "1/s"),
+    ("growth", "Rate of growth", "1/s"),
     ("damping_ratio", "Damping ratio", "–"),
     (
         "pulley_share",
@@ -53,7 +53,7 @@ pub fn page(dir: &Path) -> Result<String, ReportError> {
     render(MapPage {
         title: campbell.title.clone(),
         kind: "Campbell diagram",
-        text: "Modes about steady running, each followed from value to value; a curve ends where its mode is not found again.",
+        text: "Modes about steady running, each followed from value to value; a curve ends where its mode is not found again. A positive rate of growth is unstable.",
         facts: campbell.facts(),
         charts,
         plots,

@@ -225,7 +225,8 @@ fn unsteady(results: &Results) -> Vec<String> {
         let part = part("span", &name, "tension");
         (format!("tension of span {}", letter(i)), part)
     });
-    let pulleys = results.drive.pulley.iter().map(|pulley| {
+    let free = results.drive.pulley.iter().filter(|p| !p.is_driver());
+    let pulleys = free.map(|pulley| {
         let part = part("pulley", &pulley.name, "speed");
         (format!("speed of {}", pulley.name), part)
     });
@@ -237,10 +238,21 @@ fn unsteady(results: &Results) -> Vec<String> {
     if moving.is_empty() {
         return Vec::new();
     }
-    vec![format!(
-        "The drive has not settled: at the end of the run {} (standard deviation). Means are those of a moving drive; a longer run may settle.",
-        moving.join(" and ")
-    )]
+    let moving = moving.join(" and ");
+    let is_shaken = results
+        .drive
+        .pulley
+        .iter()
+        .any(|p| !p.irregularity.is_empty());
+    vec![if is_shaken {
+        format!(
+            "The drive swings with its irregular driver: at the end of the run {moving} (standard deviation). Means are those of a swinging drive."
+        )
+    } else {
+        format!(
+            "The drive has not settled: at the end of the run {moving} (standard deviation). Means are those of a moving drive; a longer run may settle."
+        )
+    }]
 }
 
 #[cfg(test)]

@@ -258,7 +258,7 @@ fn mountings(drive: &Drive) -> Option<Table> {
     let is_plain = |pulley: &Pulley| {
         pulley.displacement.is_none()
             && pulley.offset == 0.0
-            && pulley.tilt == [0.0; 2]
+            && pulley.tilt.iter().all(|angle| *angle == 0.0)
             && pulley.taper == 0.0
             && pulley.crown.is_none()
     };

@@ -271,3 +271,21 @@ def test_names_keep_clear_of_the_belt(page, reports):
         })()"""
     )
     assert "generator" in crossings["names"] and crossings["hits"] == []
+
+
+def test_the_pictures_of_the_guide(browser, reports):
+    """What docs/src/images keeps: with SCREENSHOTS=docs/src/images and `-k guide` it is made anew."""
+    context = browser.new_context(viewport={"width": 1280, "height": 900}, device_scale_factor=0.75, offline=True)
+    page = context.new_page()
+    open_report(page, reports / "base")
+    below = page.locator("#speeds").bounding_box()["y"] - 20
+    picture = page.screenshot(full_page=True, clip={"x": 0, "y": 0, "width": 1280, "height": below})
+    open_report(page, reports / "plates")
+    page.locator("#stage").scroll_into_view_if_needed()
+    plates = page.locator("#stage").screenshot()
+    for name, image in (("report", picture), ("report_plates", plates)):
+        # A blank page compresses to a few kilobytes.
+        assert image.startswith(b"\x89PNG") and len(image) > 20_000
+        if folder := os.environ.get("SCREENSHOTS"):
+            (pathlib.Path(folder) / f"{name}.png").write_bytes(image)
+    context.close()

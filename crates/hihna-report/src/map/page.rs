@@ -24,7 +24,7 @@ pub struct MapPage {
 
 #[derive(Template)]
 #[template(path = "map.html")]
-struct Page {
+struct Whole {
     page: MapPage,
     style: &'static str,
     script: &'static str,
@@ -55,7 +55,7 @@ pub fn map_page(map: &Map) -> Result<String, ReportError> {
 
 /// The page as HTML.
 pub fn render(page: MapPage) -> Result<String, ReportError> {
-    let page = Page {
+    let whole = Whole {
         style: include_str!("../../templates/report.css"),
         script: SCRIPT,
         plotly: plotly_script(),
@@ -64,7 +64,7 @@ pub fn render(page: MapPage) -> Result<String, ReportError> {
             .replace('<', "\\u003c"),
         page,
     };
-    Ok(page.render()?)
+    Ok(whole.render()?)
 }
 
 fn facts(map: &Map) -> Vec<[String; 2]> {
