@@ -24,4 +24,5 @@ for moment in (0.0, 0.5, 1.0):
 lowest = blade().modes().frequencies[0]
 film = blade().integrate(2 * numpy.pi / lowest, 0.01 / lowest, start=bent)
 middle = len(film.time) // 2
-print(f"let go, after half a period of {lowest:.1f} rad/s the tip is at {1000 * film.positions[middle, 8, 2]:.2f} mm sideways")
+tip = 1000 * film.positions[middle, 8, 2]
+print(f"let go, after half a period of {lowest:.1f} rad/s the tip is at {tip:.2f} mm sideways")

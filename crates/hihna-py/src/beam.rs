@@ -19,8 +19,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::structure::{
-    Course, Numbers, Steps, Structure, drawn_coordinates, equilibrium, linear_displacements, modes,
-    motion, wrong,
+    Course, Numbers, Steps, Structure, drawn_coordinates, equilibrium, inner_forces,
+    linear_displacements, modes, motion, wrong,
 };
 use crate::user_motion::{Raised, UserMotion};
 
@@ -257,6 +257,14 @@ impl NativeBeam {
         each!(&self.structure, s => linear_displacements(py, s, &self.raised))
     }
 
+    fn axial_forces<'py>(
+        &self,
+        py: Python<'py>,
+        coordinates: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        each!(&self.structure, s => inner_forces(py, s, &coordinates))
+    }
+
     fn modes<'py>(
         &self,
         py: Python<'py>,
@@ -367,5 +375,9 @@ impl<E: LineElement> Structure for PlanarStructure<E> {
 
     fn energy(system: &System<E, Loads>, q: &[f64], v: &[f64]) -> f64 {
         system.energy(q, v)
+    }
+
+    fn inner_forces(element: &E, e: &[f64]) -> Vec<f64> {
+        vec![element.axial_force(e, 0.5)]
     }
 }

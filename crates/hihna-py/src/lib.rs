@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("InputError", py.get_type::<errors::InputError>())?;
+    module.add("InputError", errors::input_error_type(py)?)?;
     module.add("RunError", py.get_type::<errors::RunError>())?;
     module.add("ReadError", py.get_type::<errors::ReadError>())?;
     module.add("StructureError", py.get_type::<errors::StructureError>())?;

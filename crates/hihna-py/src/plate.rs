@@ -1,7 +1,7 @@
 //! Rectangular plates: supports of their edges, loads, statics, modes.
 
 use ancf::dynamics::Motion;
-use ancf::element::{BendingRigidity, ThinPlate};
+use ancf::element::{BendingRigidity, SurfaceElement, ThinPlate};
 use ancf::loads::SurfaceLoads;
 use ancf::material::Isotropic;
 use ancf::statics::{Equilibrium, LoadSteps};
@@ -13,7 +13,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::structure::{
-    Course, Numbers, Steps, Structure, equilibrium, linear_displacements, modes, motion, wrong,
+    Course, Numbers, Steps, Structure, equilibrium, inner_forces, linear_displacements, modes,
+    motion, wrong,
 };
 use crate::user_motion::Raised;
 
@@ -144,6 +145,14 @@ impl NativePlate {
         linear_displacements(py, &self.structure, &Raised::default())
     }
 
+    fn membrane_forces<'py>(
+        &self,
+        py: Python<'py>,
+        coordinates: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        inner_forces(py, &self.structure, &coordinates)
+    }
+
     fn modes<'py>(
         &self,
         py: Python<'py>,
@@ -219,5 +228,10 @@ impl Structure for PlateStructure {
 
     fn energy(system: &System<ThinPlate, SurfaceLoads>, q: &[f64], v: &[f64]) -> f64 {
         system.energy(q, v)
+    }
+
+    fn inner_forces(element: &ThinPlate, e: &[f64]) -> Vec<f64> {
+        let gradient = element.surface_gradient(e, [0.5; 2]);
+        element.membrane_forces(&gradient).to_vec()
     }
 }

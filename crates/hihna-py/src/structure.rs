@@ -46,6 +46,8 @@ pub trait Structure: Send + Sync {
     fn linear(&self) -> Result<Vec<f64>, LibraryError>;
     fn natural(&self, about: &Equilibrium) -> Result<Vec<Mode>, LibraryError>;
     fn energy(system: &System<Self::Element, Self::Law>, q: &[f64], v: &[f64]) -> f64;
+    /// Forces in the middle of an element with the coordinates `e`: axial [N] of beams, membrane [N/m] of plates.
+    fn inner_forces(element: &Self::Element, e: &[f64]) -> Vec<f64>;
 }
 
 /// A library's error as Python's.
@@ -154,6 +156,27 @@ pub fn modes<'py, S: Structure>(
     answer.set_item("shapes", shapes(0))?;
     answer.set_item("imaginary_shapes", shapes(1))?;
     Ok(answer)
+}
+
+/// Forces in the middle of all elements, with these coordinates.
+pub fn inner_forces<'py, S: Structure>(
+    py: Python<'py>,
+    structure: &S,
+    coordinates: &Numbers<'py>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let q = coordinates.as_array().to_vec();
+    let system = structure.system().map_err(|error| wrong(&error))?;
+    let mesh = system.mesh();
+    if q.len() < structure.drawn().len() {
+        return Err(wrong(&"the coordinates are of another structure"));
+    }
+    let mut own = vec![0.0; S::Element::DOF];
+    let mut forces = Vec::new();
+    for (i, element) in mesh.elements().iter().enumerate() {
+        mesh.gather(i, &q, &mut own);
+        forces.extend(S::inner_forces(element, &own));
+    }
+    Ok(PyArray1::from_vec(py, forces))
 }
 
 /// How a motion is computed.

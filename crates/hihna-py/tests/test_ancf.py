@@ -181,3 +181,18 @@ def test_arrays_are_not_copied():
         assert numpy.shares_memory(view, film.coordinate_rates)
     bent = cantilever(2).force(2, (0.0, -1.0)).equilibrium()
     assert numpy.shares_memory(bent.positions, bent.coordinates)
+
+
+@pytest.mark.parametrize("element", ["linear-beam", "belt-beam", "cubic-beam"])
+def test_axial_forces(element):
+    """A hanging bar carries what hangs below the middle of each element. Strains are 1e-6, and without Poisson's ratio a fully
+    parametrised section does not resist being drawn thin."""
+    metal = ancf.Material(2.07e11, 0.0, 7850.0)
+    bar = cantilever(4, element, material=metal, angle=-math.pi / 2).gravity((0.0, -9.81)).force(4, (0.0, -500.0))
+    bent = bar.equilibrium()
+    below = 2.0 - 0.5 * (numpy.arange(4) + 0.5)
+    weight = 7850.0 * SQUARE.area * 9.81
+    numpy.testing.assert_allclose(bar.axial_forces(bent), 500.0 + weight * below, rtol=1e-5)
+    numpy.testing.assert_allclose(bar.axial_forces(bar.drawn()), 0.0, atol=1e-6)
+    with pytest.raises(StructureError, match="another structure"):
+        bar.axial_forces(numpy.zeros(3))

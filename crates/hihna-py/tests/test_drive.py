@@ -57,6 +57,15 @@ def test_errors_name_the_field(drive, make, field):
     assert isinstance(caught.value, ValueError)
 
 
+def test_errors_without_a_field_say_so_and_runs_name_theirs():
+    with pytest.raises(hihna.InputError, match="finite") as caught:
+        hihna.Drive.built_in().with_(belt__width=float("nan"))
+    assert caught.value.field is None and len(caught.value.errors) == 0
+    with pytest.raises(hihna.InputError, match="at rest at time zero") as caught:
+        hihna.Drive.built_in().with_({"run.start": "steady"}).run()
+    assert caught.value.field.startswith("pulley") or caught.value.field == "run.start"
+
+
 def test_other_mistakes_are_exceptions_too(drive, tmp_path):
     with pytest.raises(hihna.InputError):
         hihna.Drive.load(tmp_path / "nowhere.toml")
@@ -112,7 +121,8 @@ def test_a_folder_is_written_and_read(results, tmp_path):
 
 
 def test_a_belt_of_plates_has_edges():
-    drive = hihna.Drive.load(EXAMPLES / "crowned_pulleys.toml", **{"run.end_time": 0.002, "run.output_interval": 1e-3, "run.frame_interval": 1e-3})
+    short = {"run.end_time": 0.002, "run.output_interval": 1e-3, "run.frame_interval": 1e-3}
+    drive = hihna.Drive.load(EXAMPLES / "crowned_pulleys.toml", **short)
     results = drive.run()
     edges, frames = results.edges, results.frames
     numpy.testing.assert_array_equal(edges["material_coordinate"], frames["material_coordinate"])

@@ -75,6 +75,19 @@ def test_reactions_carry_the_load():
     numpy.testing.assert_allclose(bent.reactions[1:-1], 0.0, atol=1e-5)
 
 
+def test_membrane_forces():
+    """A strip pulled along x by its nodes' shares, 100 N on a width of a metre: n_xx = 100 N/m by equilibrium of every
+    cross-section, on average over the width, whatever the clamp does to its neighbourhood."""
+    plate = square(8).clamp("start")
+    for j in range(9):
+        plate.force((8, j), (100.0 * (0.5 if j in (0, 8) else 1.0) / 8, 0.0, 0.0))
+    forces = plate.membrane_forces(plate.equilibrium())
+    assert forces.shape == (8, 8, 3)
+    # The middle of an element is not the mean over it; halves of elements apart the field is smooth.
+    numpy.testing.assert_allclose(forces[2:-1, :, 0].mean(axis=1), 100.0, rtol=0.01)
+    assert numpy.abs(forces[4:6, :, 1:]).max() < 5.0
+
+
 def test_a_plate_swings_about_its_equilibrium():
     """Let go from the shape of its first mode, scaled to a hundredth of the thickness, a supported square comes back after a
     period of that mode: a cosine. Steps of a hundredth of the period are off by the scheme's (omega h)²/12, 3e-4 of the

@@ -43,7 +43,8 @@ def test_a_cantilever_askew_bends_as_timoshenko_says(axis, moment):
     assert moved[-1, 0] @ numpy.array(ASKEW[axis]) == pytest.approx(exact, rel=1e-9)
     # A tip that bends by w is drawn back by about 3 w²/5 L along the beam, of which linear theory knows nothing.
     bent = beam.equilibrium()
-    numpy.testing.assert_allclose(bent.positions[-1] - beam.drawn().reshape(4, 4, 3)[-1, 0], moved[-1, 0], rtol=0, atol=exact**2)
+    drawn = beam.drawn().reshape(4, 4, 3)
+    numpy.testing.assert_allclose(bent.positions[-1] - drawn[-1, 0], moved[-1, 0], rtol=0, atol=exact**2)
     numpy.testing.assert_allclose(bent.reactions.sum(axis=0), -numpy.array(ASKEW[axis]), atol=1e-6)
 
 
@@ -53,7 +54,8 @@ def test_moments_turn_the_tip(element):
     number of elements has it. Rounding."""
     more = {"element": element, "torsion_factor": STRIP.saint_venant_torsion_factor}
     length, height, width = ASKEW
-    stiffness = [SHEAR * STRIP.torsion_constant] + [STEEL.youngs_modulus * i for i in (STRIP.second_moment_z, STRIP.second_moment_y)]
+    bending = [STEEL.youngs_modulus * moment for moment in (STRIP.second_moment_z, STRIP.second_moment_y)]
+    stiffness = [SHEAR * STRIP.torsion_constant, *bending]
     for axis, resists in zip(ASKEW, stiffness):
         beam = cantilever(3, axes=ASKEW, **more)
         slopes = beam.moment(beam.last, axis).linear_displacements()[-1]
@@ -63,8 +65,16 @@ def test_moments_turn_the_tip(element):
         assert slope @ turned == pytest.approx(1 / resists, rel=1e-9)
 
 
+def test_axial_forces():
+    """A bar askew pulled along itself by a kilonewton has it everywhere; strains are 1e-6."""
+    beam = cantilever(3, axes=ASKEW)
+    bent = beam.force(3, 1000.0 * numpy.array(ASKEW[0])).equilibrium()
+    numpy.testing.assert_allclose(beam.axial_forces(bent), 1000.0, rtol=1e-5)
+
+
 def test_far_bent_in_the_plane_it_is_the_planar_beam():
-    """The same energy: what Newton's method leaves over, 1e-9 of the length, is all that differs. In one step of load and in ten."""
+    """The same energy: what Newton's method leaves over, 1e-9 of the length, is all that differs. In one step of load and in
+    ten."""
     load, elements = 3.0e6, 8
     planar = ancf.Beam(1.0, elements, ancf.Section.rectangle(0.04, 0.1), STEEL).clamp(0)
     flat = planar.force(elements, (0.0, -load)).equilibrium()
@@ -128,8 +138,8 @@ def test_a_support_moves_by_a_function():
 
 
 def test_a_ring_is_closed_by_its_nodes():
-    """A ring of belt beams drawn as a circle: bent from straight, its strain energy is E I / 2 R² of the length and curvature is
-    uniform, so it is at rest but for what rounding and the mesh leave. The first node comes again as the last."""
+    """A ring of belt beams drawn as a circle: bent from straight, its strain energy is E I / 2 R² of the length and its
+    curvature is uniform, so it is at rest but for what rounding and the mesh leave. The first node comes again as the last."""
     radius, count = 0.5, 24
     section = ancf.SpatialSection.rectangle(0.02, 0.005)
     angle = 2 * math.pi * numpy.arange(count + 1) / count
@@ -161,7 +171,8 @@ def test_what_is_wrong_is_told():
     with pytest.raises(StructureError, match="numbers"):
         ancf.SpaceBeam(1.0, 2, STRIP, STEEL, nodes=numpy.zeros((3, 3, 3)))
     with pytest.raises(StructureError, match="no slope along"):
-        ancf.SpaceBeam(1.0, 2, STRIP, STEEL, element="linear-beam-3d").force(1, (1, 0, 0), vector="along").clamp(0).equilibrium()
+        beam = ancf.SpaceBeam(1.0, 2, STRIP, STEEL, element="linear-beam-3d").clamp(0)
+        beam.force(1, (1, 0, 0), vector="along").equilibrium()
     with pytest.raises(StructureError, match="axes"):
         cantilever().fix(0, "height", 3)
     with pytest.raises(ValueError, match="height and width"):

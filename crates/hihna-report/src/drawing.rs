@@ -21,17 +21,19 @@ const EXHAUSTED: f64 = 1.0 - 1.0e-6;
 /// A surface that moves slower than this part of the drive's nominal speed stands; the rest is rounding.
 const STANDING: f64 = 1.0e-6;
 
+/// Colours are those of the page, or of the notebook (JupyterLab, VS Code) that shows the drawing.
 const STYLE: &str = "\
+.hihna-drive{--hihna-paper:var(--page,var(--jp-layout-color0,var(--vscode-editor-background,#fff)))}\
 .hihna-drive{max-width:100%;height:auto;font:500 14px system-ui,sans-serif}\
 .hihna-drive{overflow:visible}\
-.hihna-drive text{fill:currentColor;paint-order:stroke;stroke:var(--page,#fff);stroke-width:4px;stroke-linejoin:round}\
+.hihna-drive text{fill:currentColor;paint-order:stroke;stroke:var(--hihna-paper);stroke-width:4px;stroke-linejoin:round}\
 .hihna-drive .inside{stroke:none}\
 .hihna-drive .pulley{fill:var(--pulley,#8883);stroke:currentColor;stroke-width:1}\
 .hihna-drive .thin{stroke:currentColor;stroke-width:1.2;fill:none}\
 .hihna-drive .belt{stroke:var(--belt,#777);stroke-width:4;fill:none}\
 .hihna-drive .wrap{stroke:var(--wrap,#0072b2);stroke-width:6;fill:none}\
 .hihna-drive .slip{stroke:var(--slip,#d55e00);stroke-width:9;fill:none}\
-.hihna-drive .letter{fill:var(--page,#fff);stroke:currentColor;stroke-width:1}";
+.hihna-drive .letter{fill:var(--hihna-paper);stroke:currentColor;stroke-width:1}";
 
 /// `A` of the first span, `B` of the second, `AA` after `Z`.
 pub fn letter(mut index: usize) -> String {
@@ -64,7 +66,7 @@ pub fn drawing(drive: &Drive, layout: &Layout, belt: &[ProfileRow], speeds: &[f6
     // Writing to a string cannot fail.
     let _ = write!(
         svg,
-        "<svg class=\"hihna-drive\" viewBox=\"0 0 {:.0} {:.0}\" width=\"{:.0}\" role=\"img\" aria-label=\"Drawing of the drive, to scale: {} pulleys\"><style>{STYLE}</style>",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"hihna-drive\" viewBox=\"0 0 {:.0} {:.0}\" width=\"{:.0}\" role=\"img\" aria-label=\"Drawing of the drive, to scale: {} pulleys\"><style>{STYLE}</style>",
         view.width,
         view.height,
         view.width,
@@ -368,5 +370,7 @@ mod tests {
         let layout = Layout::new(&drive.pulley).unwrap();
         let svg = drawing(&drive, &layout, &[], &[12.0, -3.0]);
         assert!(!svg.contains("<script>"));
+        // Saved to a file of its own it is a picture, too.
+        assert!(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
     }
 }

@@ -7,7 +7,7 @@ import numpy
 from ._native import NativeBeam
 from .material import Material
 from .section import Section
-from .structure import Motion, Structure, given_nodes
+from .structure import Equilibrium, Motion, Structure, coordinates_of, given_nodes
 
 #: Vectors of a node: place, slope along the beam if there is one, slope across it.
 VECTORS = {"linear-beam": 2, "belt-beam": 3, "cubic-beam": 3}
@@ -155,3 +155,7 @@ class Beam(Structure):
         """Move the x (index 0), y (1) or angle (2) of a rigid body by a function of time, called as that of `turn`."""
         self._native.prescribe_body(body, index, motion)
         return self
+
+    def axial_forces(self, state: Equilibrium | numpy.ndarray) -> numpy.ndarray:
+        """Axial force [N] in the middle of every element, in an equilibrium or with a row of a film's `coordinates`."""
+        return self._native.axial_forces(coordinates_of(state))

@@ -12,9 +12,11 @@ A plate is drawn in the plane of x and y from the origin; node `(i, j)` is the i
 
 from __future__ import annotations
 
+import numpy
+
 from ._native import NativePlate
 from .material import Material
-from .structure import Structure
+from .structure import Equilibrium, Structure, coordinates_of
 
 #: Edges by name: x = 0, x at its largest, y = 0, y at its largest.
 EDGES = ("start", "end", "right", "left")
@@ -88,3 +90,8 @@ class Plate(Structure):
         """Add a uniform acceleration [m/s²]."""
         self._native.gravity(list(field))
         return self
+
+    def membrane_forces(self, state: Equilibrium | numpy.ndarray) -> numpy.ndarray:
+        """Forces per undeformed width [N/m] in the middle of every element, `(along, across, 3)` for xx, yy and xy, of the
+        second Piola-Kirchhoff stress; in an equilibrium or with a row of a film's `coordinates`."""
+        return self._native.membrane_forces(coordinates_of(state)).reshape(*self.last, 3)

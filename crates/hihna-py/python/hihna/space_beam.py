@@ -9,7 +9,7 @@ import numpy
 from ._native import NativeSpaceBeam
 from .material import Material
 from .section import SpatialSection
-from .structure import Motion, Structure, given_nodes
+from .structure import Equilibrium, Motion, Structure, coordinates_of, given_nodes
 
 #: Vectors of a node: place, slope along the beam if there is one, slopes over its height and across its width.
 VECTORS = {"linear-beam-3d": 3, "belt-beam-3d": 4}
@@ -146,3 +146,7 @@ class SpaceBeam(Structure):
         """Eliminate dependent coordinates instead of using Lagrange multipliers."""
         self._native.eliminate(eliminate)
         return self
+
+    def axial_forces(self, state: Equilibrium | numpy.ndarray) -> numpy.ndarray:
+        """Axial force [N] in the middle of every element, in an equilibrium or with a row of a film's `coordinates`."""
+        return self._native.axial_forces(coordinates_of(state))

@@ -215,6 +215,11 @@ class Structure:
         return values[..., own : own + 3 * self._body_count].reshape(*before, self._body_count, 3)
 
 
+def coordinates_of(state: Equilibrium | numpy.ndarray) -> numpy.ndarray:
+    """Coordinates of an equilibrium, or of a row of a `Film`, as the solver takes them."""
+    return _numbers(state.coordinates if isinstance(state, Equilibrium) else state)
+
+
 def _numbers(values: numpy.ndarray) -> numpy.ndarray:
     """Numbers as the solver takes them."""
     return numpy.ascontiguousarray(values, dtype=numpy.float64).ravel()
