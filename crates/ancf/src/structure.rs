@@ -28,6 +28,7 @@ mod free_motion;
 mod modes;
 mod plate;
 mod spatial;
+mod start;
 
 pub use free_motion::{FreeMotion, RigidMotion};
 pub use modes::Mode;

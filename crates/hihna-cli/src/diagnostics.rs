@@ -83,7 +83,7 @@ pub enum Failure {
     Output(io::Error),
     /// Ctrl-C cannot be caught.
     #[error("cannot prepare for Ctrl-C: {0}")]
-    Signal(#[from] ctrlc::Error),
+    Signal(io::Error),
 }
 
 impl Failure {

@@ -9,6 +9,7 @@ mod progress;
 mod report;
 mod run;
 mod schema;
+mod signals;
 mod standard_output;
 mod steady;
 mod summary;
@@ -50,6 +51,7 @@ enum Command {
 fn main() -> ExitCode {
     let Program { command, loudness } = Program::parse();
     loudness.start_logs();
+    signals::survive_full_files();
     let json = match &command {
         Command::Run(arguments) => arguments.json,
         Command::Steady(arguments) => arguments.json,

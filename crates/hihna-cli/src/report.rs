@@ -8,7 +8,8 @@ use crate::diagnostics::Failure;
 use crate::standard_output;
 
 /// Write `report.html` into a result folder of `hihna run`: drawing, tables, charts and, if the run kept frames, the
-/// belt in motion. Of a folder of `hihna steady --map`: what was found over one field, or over two as contours.
+/// belt in motion. Of a folder of `hihna steady --map`: what was found over one field, or over two as contours; with
+/// `--modes`, a Campbell diagram.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Result folder

@@ -1,8 +1,7 @@
 //! `hihna run`: simulate a drive and write its results.
 
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 use hihna::drive::Until;
@@ -17,7 +16,7 @@ use crate::diagnostics::{Failure, print_warning};
 use crate::drive_source::DriveSource;
 use crate::loudness::Loudness;
 use crate::progress::Bar;
-use crate::{standard_output, summary};
+use crate::{signals, standard_output, summary};
 
 /// Simulate a drive, write a result folder and print a summary.
 #[derive(Debug, Args)]
@@ -88,9 +87,7 @@ pub fn run(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> {
         .unwrap_or_else(|| arguments.source.default_folder());
     record::check(&folder, arguments.force).map_err(Failure::Folder)?;
 
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&interrupted);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))?;
+    let interrupted = signals::interrupted()?;
     let mut bar = Bar::new(loudness.shows_progress());
     let outcome = simulate(&drive, &mut |progress| {
         bar.update(progress);

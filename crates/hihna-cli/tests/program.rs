@@ -362,51 +362,158 @@ fn a_reader_may_leave_early() {
     assert!(child.wait().unwrap().success());
 }
 
-/// Ctrl-C while a long run steps: status 1, a word about it, and nothing on the disk. The test waits
-/// until Linux says that the program catches the signal.
+/// Signals that a process catches, as Linux tells.
+#[cfg(target_os = "linux")]
+fn caught(process: u32) -> u64 {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+    u64::from_str_radix(caught.unwrap_or("0").trim(), 16).unwrap_or(0)
+}
+
+/// Ctrl-C or a request to terminate while a long run steps: status 1, a word about it, and nothing on the disk. The test
+/// waits until Linux says that the program catches the signal.
 #[test]
 #[cfg(target_os = "linux")]
 fn ctrl_c_stops_cleanly() {
-    const INTERRUPT: u64 = 1 << 1;
+    for (name, number) in [("-INT", 2), ("-TERM", 15)] {
+        let folder = TempDir::new().unwrap();
+        let child = program(folder.path())
+            .args([
+                "run",
+                "--json",
+                "--set",
+                "run.end_time=1e4",
+                "--set",
+                "run.output_interval=1",
+            ])
+            .stdout(std::process::Stdio::piped())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap();
+        while caught(child.id()) & (1 << (number - 1)) == 0 {
+            std::thread::yield_now();
+        }
+        assert!(
+            Command::new("kill")
+                .args([name, &child.id().to_string()])
+                .status()
+                .unwrap()
+                .success()
+        );
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(status(&output), 1, "{output:?}");
+        assert!(
+            text(&output.stderr).contains("nothing was written"),
+            "{output:?}"
+        );
+        let message = answer(&output)["errors"][0]["message"].to_string();
+        assert!(message.contains("stopped at t ="), "{message}");
+        assert!(names(folder.path()).is_empty());
+    }
+}
+
+/// A map of steady running that is interrupted leaves nothing: its folder is begun when there is something to write.
+#[test]
+#[cfg(target_os = "linux")]
+fn an_interrupted_map_leaves_nothing() {
     let folder = TempDir::new().unwrap();
-    let child = program(folder.path())
+    let mut child = program(folder.path())
         .args([
-            "run",
-            "--json",
-            "--set",
-            "run.end_time=1e4",
-            "--set",
-            "run.output_interval=1",
+            "steady",
+            "--model",
+            "fe",
+            "--map",
+            "pulley.driven.torque=-0.5:-3:100000",
+            "--out",
+            "map",
         ])
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let process = child.id().to_string();
-    let caught = || {
-        let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
-        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
-        u64::from_str_radix(caught.unwrap_or("0").trim(), 16).unwrap_or(0) & INTERRUPT != 0
+    // It has begun to compute when it has used the processor for a tenth of a second: fourteenth field of its statistics.
+    let used = || {
+        let fields = fs::read_to_string(format!("/proc/{}/stat", child.id())).unwrap();
+        let after_name = fields.rsplit(')').next().unwrap();
+        after_name
+            .split_whitespace()
+            .nth(11)
+            .unwrap()
+            .parse::<u64>()
+            .unwrap()
     };
-    while !caught() {
+    while used() < 10 {
         std::thread::yield_now();
     }
+    let killed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(killed.unwrap().success());
+    assert!(!child.wait().unwrap().success());
     assert!(
-        Command::new("kill")
-            .args(["-INT", &process])
-            .status()
-            .unwrap()
-            .success()
+        names(folder.path()).is_empty(),
+        "{:?}",
+        names(folder.path())
     );
-    let output = child.wait_with_output().unwrap();
+}
+
+/// Where a file may not grow, or the disk is full, the run fails with a word about it, and neither a folder nor half of one
+/// is left; nor is half a page left by `report`. The shell's limit is in blocks of at most 1 KiB.
+#[test]
+#[cfg(unix)]
+fn files_that_may_not_grow_leave_nothing() {
+    let folder = TempDir::new().unwrap();
+    let limited = |blocks: u32, arguments: &str| {
+        let script = format!(
+            "ulimit -f {blocks}; exec {} {arguments}",
+            env!("CARGO_BIN_EXE_hihna")
+        );
+        let mut shell = Command::new("sh");
+        shell.current_dir(folder.path()).args(["-c", &script]);
+        shell.output().unwrap()
+    };
+    let short = SHORT.join(" ");
+    // profile.csv of 24 points takes some kilobytes.
+    let output = limited(2, &format!("run --out here {short}"));
     assert_eq!(status(&output), 1, "{output:?}");
+    assert!(text(&output.stderr).contains("cannot write"), "{output:?}");
     assert!(
-        text(&output.stderr).contains("nothing was written"),
-        "{output:?}"
+        names(folder.path()).is_empty(),
+        "{:?}",
+        names(folder.path())
     );
-    let message = answer(&output)["errors"][0]["message"].to_string();
-    assert!(message.contains("stopped at t ="), "{message}");
-    assert!(names(folder.path()).is_empty());
+    let whole = hihna(
+        &folder,
+        &[&["run", "--quiet", "--out", "here"], &SHORT[..]].concat(),
+    );
+    assert!(status(&whole) < 2, "{whole:?}");
+    let before = names(&folder.path().join("here"));
+    // The page takes some megabytes.
+    let output = limited(100, "report here");
+    assert_eq!(status(&output), 1, "{output:?}");
+    assert!(text(&output.stderr).contains("report.html"), "{output:?}");
+    assert_eq!(names(&folder.path().join("here")), before);
+}
+
+/// A Campbell diagram's folder is one of results: `--force` replaces it.
+#[test]
+fn a_campbell_diagram_may_be_replaced() {
+    let folder = TempDir::new().unwrap();
+    let arguments = [
+        "steady",
+        "--model",
+        "fe",
+        "--set",
+        "pulley.driven.torque=-1",
+        "--modes",
+        "1",
+        "--map",
+        "pulley.driver.speed=10:12:2",
+        "--out",
+        "modes",
+    ];
+    assert_eq!(status(&hihna(&folder, &arguments)), 0);
+    let again = hihna(&folder, &[&arguments[..], &["--force"]].concat());
+    assert_eq!(status(&again), 0, "{again:?}");
+    assert_eq!(names(folder.path()), ["modes"]);
 }
 
 /// `--until steady` ends a run before its time, and the drive written says so; what no run can start from is an error at its line.

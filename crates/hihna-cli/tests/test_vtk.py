@@ -132,3 +132,27 @@ def test_a_belt_of_plates_has_its_edges(tmp_path, edge):
     assert 0.04 * numpy.sqrt(1 - 0.3 * (1.04**2 - 1)) < width.min() < width.max() < 0.04
     points, _, _ = read(folder / "belt_00002.vtu")
     numpy.testing.assert_allclose(points.reshape(-1, 2, 3), both[-len(points) // 2 :], rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("example", ["v_belt", "crowned_pulleys"])
+def test_belts_in_space_have_all_fields_and_pulleys(tmp_path, example):
+    """Tension, strain, speed, contact force and slip of every point, numbers that differ along the belt where it is pressed on
+    pulleys; the pulleys beside it as the second part."""
+    file = pathlib.Path(__file__).parents[3] / "examples" / f"{example}.toml"
+    sets = ["run.end_time=0.01", "run.output_interval=0.005", "run.frame_interval=0.005"]
+    arguments = [argument for item in sets for argument in ("--set", item)]
+    folder = tmp_path / "result"
+    subprocess.run([os.environ["HIHNA"], "run", str(file), *arguments, "--vtk", "--quiet", "--out", str(folder)], check=True)
+    entries = collection(folder)
+    assert [part for _, part, _ in entries] == [0, 1] * 3
+    points, belt, grid = read(folder / entries[-2][2])
+    assert grid.GetNumberOfCells() * 2 == len(points)
+    for name in ("tension", "element_tension", "strain_engineering", "speed", "normal_force", "friction_force", "slip_speed"):
+        assert belt[name].shape == (len(points),) and numpy.isfinite(belt[name]).all() and numpy.ptp(belt[name]) > 0, name
+    # Half of the belt or more lies on two pulleys; spans are free.
+    pressed = belt["normal_force"] > 0
+    assert 0.2 < pressed.mean() < 0.9
+    assert (belt["slip_speed"][~pressed] == 0).all()
+    places, pulleys, _ = read(folder / entries[-1][2])
+    assert set(pulleys["pulley"]) == {0, 1} and {"angle", "speed", "torque", "material_angle"} <= set(pulleys)
+    assert numpy.ptp(places[:, 2]) > 0, "pulleys have a width"

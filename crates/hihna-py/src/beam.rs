@@ -1,26 +1,28 @@
-//! Planar structures of one chain of beams: supports, loads, statics, modes, motion.
+//! Planar structures of one chain of beams: supports, loads, bodies, statics, modes, motion.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use ancf::constraint::{ConstraintForm, SpinUp};
-use ancf::dynamics::{Control, Method, Motion, integrate};
-use ancf::element::{BeltBeam2, CubicBeam2, LineElement, LinearBeam2};
+use ancf::dynamics::Motion;
+use ancf::element::{BeltBeam2, CubicBeam2, Element, LineElement, LinearBeam2};
+use ancf::loads::Loads;
 use ancf::material::Isotropic;
 use ancf::section::PlanarSection;
-use ancf::statics::Equilibrium;
-use ancf::structure::{Coordinate, NodeVector, PlanarStructure, RigidBody};
+use ancf::statics::{Equilibrium, LoadSteps};
+use ancf::structure::{
+    Coordinate, Mode, NodeVector, PlanarStructure, RigidBody, StructureError as LibraryError,
+};
+use ancf::system::System;
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::errors::StructureError;
-use crate::user_motion::{Raised, UserMotion, has_raised, take};
-
-/// Between looks at signals.
-const INTERVAL: Duration = Duration::from_millis(100);
+use crate::structure::{
+    Course, Numbers, Steps, Structure, drawn_coordinates, equilibrium, inner_forces,
+    linear_displacements, modes, motion, wrong,
+};
+use crate::user_motion::{Raised, UserMotion};
 
 /// Structures by the kind of their elements.
 enum AnyStructure {
@@ -47,16 +49,15 @@ pub struct NativeBeam {
     raised: Raised,
 }
 
-fn wrong(error: &impl ToString) -> PyErr {
-    StructureError::new_err(error.to_string())
-}
-
 /// `(area, second moment, fourth moment)` and `(E, nu, rho)`.
 type Triple = (f64, f64, f64);
 
 #[pymethods]
 impl NativeBeam {
+    /// A chain of `kind`, straight from `start` in the direction `angle`, or with the nodal coordinates `nodes`: cubic
+    /// beams are undeformed there, the others drawn so.
     #[new]
+    #[pyo3(signature = (kind, length, elements, section, material, start, angle, factors, nodes=None))]
     #[expect(
         clippy::too_many_arguments,
         reason = "the Python side gathers them in objects"
@@ -70,9 +71,10 @@ impl NativeBeam {
         start: [f64; 2],
         angle: f64,
         factors: Triple,
+        nodes: Option<Numbers<'_>>,
     ) -> PyResult<Self> {
         if elements == 0 {
-            return Err(StructureError::new_err("a beam has at least one element"));
+            return Err(wrong(&"a beam has at least one element"));
         }
         let section = PlanarSection {
             area: section.0,
@@ -85,19 +87,24 @@ impl NativeBeam {
             density: material.2,
         };
         let part = length / elements as f64;
+        let line = Line {
+            elements,
+            start,
+            angle,
+            nodes,
+        };
         let structure = match kind {
             "belt-beam" => {
                 let (axial, bending, damping) = factors;
                 let element = BeltBeam2::new(part, &section, &material, axial, bending, damping);
-                AnyStructure::Belt(PlanarStructure::straight(element, elements, start, angle))
+                AnyStructure::Belt(line.of(element)?)
             }
-            "cubic-beam" => {
-                let element = CubicBeam2::new(part, &section, &material);
-                AnyStructure::Cubic(PlanarStructure::straight(element, elements, start, angle))
-            }
+            "cubic-beam" => AnyStructure::Cubic(match &line.nodes {
+                None => line.of(CubicBeam2::new(part, &section, &material))?,
+                Some(nodes) => curved(nodes, part, elements, &section, &material)?,
+            }),
             "linear-beam" => {
-                let element = LinearBeam2::new(part, &section, &material);
-                AnyStructure::Linear(PlanarStructure::straight(element, elements, start, angle))
+                AnyStructure::Linear(line.of(LinearBeam2::new(part, &section, &material))?)
             }
             other => {
                 return Err(PyValueError::new_err(format!(
@@ -201,178 +208,176 @@ impl NativeBeam {
         each!(&mut self.structure, s => { s.turn(node, motion); });
     }
 
-    /// Moves a component of a node's place by a function of time.
-    fn prescribe(&mut self, node: usize, axis: usize, function: Py<PyAny>) {
-        let motion = Arc::new(UserMotion {
-            function,
-            raised: Arc::clone(&self.raised),
-        });
-        let coordinate = Coordinate::Node {
-            node,
-            vector: NodeVector::Position,
-            axis,
-        };
-        each!(&mut self.structure, s => { s.prescribe(coordinate, motion); });
-    }
-
-    /// The equilibrium: coordinates, places of the nodes, reactions on them, iterations.
-    fn equilibrium<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let answer = PyDict::new(py);
-        each!(&self.structure, s => {
-            let found = py.detach(|| s.equilibrium());
-            self.tell()?;
-            let found = found.map_err(|error| wrong(&error))?;
-            answer.set_item("positions", flat(py, (0..=s.last()).map(|n| s.position(&found.q, n))))?;
-            answer.set_item("reactions", flat(py, (0..=s.last()).map(|n| s.reaction(&found, n))))?;
-            answer.set_item("iterations", found.iterations())?;
-            answer.set_item("multipliers", PyArray1::from_vec(py, found.multipliers))?;
-            answer.set_item("coordinates", PyArray1::from_vec(py, found.q))?;
-        });
-        Ok(answer)
-    }
-
-    /// Natural motions about the equilibrium with these coordinates and multipliers, or about the drawn shape: pairs
-    /// of frequency and growth, and the motion of the nodes, real parts.
-    fn modes<'py>(
-        &self,
-        py: Python<'py>,
-        about: Option<(Vec<f64>, Vec<f64>)>,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let answer = PyDict::new(py);
-        each!(&self.structure, s => {
-            let about = if let Some((q, multipliers)) = about {
-                equilibrium_at(q, multipliers)
-            } else {
-                let system = s.build().map_err(|error| wrong(&error))?;
-                let drawn = s.at_rest(&system).q;
-                let multipliers = vec![0.0; drawn.len()];
-                equilibrium_at(drawn, multipliers)
-            };
-            let modes = py.detach(|| s.modes(&about));
-            self.tell()?;
-            let modes = modes.map_err(|error| wrong(&error))?;
-            let pairs = modes.iter().map(|mode| [mode.frequency, mode.growth]);
-            answer.set_item("modes", flat(py, pairs))?;
-            let shapes = modes.iter().flat_map(|mode| {
-                let real: Vec<f64> = mode.shape.iter().map(|[real, _]| *real).collect();
-                (0..=s.last()).map(move |n| s.position(&real, n))
-            });
-            answer.set_item("shapes", flat(py, shapes))?;
-        });
-        Ok(answer)
-    }
-
-    /// Motion from rest as drawn: times, places and velocities of the nodes, energy.
-    fn integrate<'py>(
-        &self,
-        py: Python<'py>,
-        end: f64,
-        step: f64,
-        method: &str,
-        interval: f64,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let method = match method {
-            "auto" => Method::Auto,
-            "generalized-alpha" => Method::GeneralizedAlpha,
-            "tr-bdf2" => Method::TrBdf2,
-            "runge-kutta" => Method::RungeKutta,
+    /// Moves a component of a vector of a node by a function of time.
+    fn prescribe(
+        &mut self,
+        node: usize,
+        vector: &str,
+        axis: usize,
+        function: Py<PyAny>,
+    ) -> PyResult<()> {
+        let vector = match vector {
+            "position" => NodeVector::Position,
+            "along" => NodeVector::Along,
+            "across" => NodeVector::Across,
             other => {
                 return Err(PyValueError::new_err(format!(
-                    "there is no integrator `{other}`: they are auto, generalized-alpha, tr-bdf2 and runge-kutta"
+                    "there is no vector `{other}`: they are position, along and across"
                 )));
             }
         };
-        if !(end > 0.0 && step > 0.0 && interval > 0.0) {
-            return Err(PyValueError::new_err(
-                "end, step and interval must be positive",
+        if axis > 1 {
+            return Err(wrong(&"the axes are 0 for x and 1 for y"));
+        }
+        self.follow(Coordinate::Node { node, vector, axis }, function);
+        Ok(())
+    }
+
+    /// Moves a coordinate of a body by a function of time: 0 x, 1 y, 2 its angle.
+    fn prescribe_body(&mut self, body: usize, index: usize, function: Py<PyAny>) -> PyResult<()> {
+        if index > 2 {
+            return Err(wrong(
+                &"the coordinates of a body are 0 for x, 1 for y and 2 for its angle",
             ));
         }
-        let control = Control::fixed(method, step);
-        let found = each!(&self.structure, s => py.detach(|| film(s, end, interval, &control, &self.raised)));
-        self.tell()?;
-        let film = found?;
-        let answer = PyDict::new(py);
-        answer.set_item("time", PyArray1::from_vec(py, film.time))?;
-        answer.set_item("positions", PyArray1::from_vec(py, film.positions))?;
-        answer.set_item("velocities", PyArray1::from_vec(py, film.velocities))?;
-        answer.set_item("energy", PyArray1::from_vec(py, film.energy))?;
-        Ok(answer)
+        self.follow(Coordinate::Body { body, index }, function);
+        Ok(())
+    }
+
+    /// The drawn coordinates: nodes that are nodes of their own, then bodies.
+    fn drawn<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, each!(&self.structure, s => s.drawn()))
+    }
+
+    fn equilibrium<'py>(&mut self, py: Python<'py>, steps: Steps) -> PyResult<Bound<'py, PyDict>> {
+        each!(&mut self.structure, s => equilibrium(py, s, steps, &self.raised))
+    }
+
+    fn linear_displacements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        each!(&self.structure, s => linear_displacements(py, s, &self.raised))
+    }
+
+    fn axial_forces<'py>(
+        &self,
+        py: Python<'py>,
+        coordinates: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        each!(&self.structure, s => inner_forces(py, s, &coordinates))
+    }
+
+    fn modes<'py>(
+        &self,
+        py: Python<'py>,
+        about: Option<(Numbers<'py>, Numbers<'py>)>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        each!(&self.structure, s => modes(py, s, about, &self.raised))
+    }
+
+    fn integrate<'py>(&self, py: Python<'py>, course: Course<'py>) -> PyResult<Bound<'py, PyDict>> {
+        each!(&self.structure, s => motion(py, s, &course, &self.raised))
     }
 }
 
 impl NativeBeam {
-    /// What a function of the user's raised comes before what the solver made of it.
-    fn tell(&self) -> PyResult<()> {
-        take(&self.raised).map_or(Ok(()), Err)
+    fn follow(&mut self, coordinate: Coordinate, function: Py<PyAny>) {
+        let motion = Arc::new(UserMotion {
+            function,
+            raised: Arc::clone(&self.raised),
+        });
+        each!(&mut self.structure, s => { s.prescribe(coordinate, motion); });
     }
 }
 
-fn equilibrium_at(q: Vec<f64>, multipliers: Vec<f64>) -> Equilibrium {
-    Equilibrium {
-        reactions: vec![0.0; q.len()],
-        q,
-        multipliers,
-        corrections: Vec::new(),
+/// How a chain is drawn.
+struct Line<'py> {
+    elements: usize,
+    start: [f64; 2],
+    angle: f64,
+    nodes: Option<Numbers<'py>>,
+}
+
+impl Line<'_> {
+    fn of<E: LineElement>(&self, element: E) -> PyResult<PlanarStructure<E>> {
+        let count = self.elements;
+        let Some(nodes) = &self.nodes else {
+            return Ok(PlanarStructure::straight(
+                element, count, self.start, self.angle,
+            ));
+        };
+        let nodes = drawn_coordinates(nodes, (count + 1) * E::NODE_DOF)?;
+        Ok(PlanarStructure::with_nodes(vec![element; count], nodes))
     }
 }
 
-fn flat(py: Python<'_>, pairs: impl Iterator<Item = [f64; 2]>) -> Bound<'_, PyArray1<f64>> {
-    PyArray1::from_vec(py, pairs.flatten().collect())
-}
-
-/// States at equal intervals.
-#[derive(Default)]
-struct Film {
-    time: Vec<f64>,
-    positions: Vec<f64>,
-    velocities: Vec<f64>,
-    energy: Vec<f64>,
-}
-
-#[expect(
-    clippy::redundant_closure_for_method_calls,
-    reason = "the method is not general in its lifetime"
-)]
-fn film<E: LineElement>(
-    structure: &PlanarStructure<E>,
-    end: f64,
-    interval: f64,
-    control: &Control,
-    raised: &Raised,
-) -> PyResult<Film> {
-    let mut system = structure.build().map_err(|error| wrong(&error))?;
-    let mut motion = structure.at_rest(&system);
-    let mut film = Film::default();
-    let mut state = Motion::zero(motion.q.len());
-    let mut signal = None;
-    let mut looked = Instant::now();
-    let done = integrate(&mut system, &mut motion, end, control, |system, window| {
-        loop {
-            let due = interval * film.time.len() as f64;
-            if due > window.to.time + 1.0e-9 * interval {
-                break;
-            }
-            window.interpolate(due.min(window.to.time), &mut state);
-            film.time.push(state.time);
-            for node in 0..=structure.last() {
-                film.positions.extend(structure.position(&state.q, node));
-                film.velocities.extend(structure.position(&state.v, node));
-            }
-            film.energy.push(system.energy(&state.q, &state.v));
-        }
-        if looked.elapsed() > INTERVAL {
-            looked = Instant::now();
-            signal = Python::attach(|py| py.check_signals()).err();
-        }
-        if signal.is_some() || has_raised(raised) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+/// Cubic beams that are undeformed with these nodal coordinates.
+fn curved(
+    nodes: &Numbers<'_>,
+    part: f64,
+    count: usize,
+    section: &PlanarSection,
+    material: &Isotropic,
+) -> PyResult<PlanarStructure<CubicBeam2>> {
+    const NODE: usize = CubicBeam2::NODE_DOF;
+    let nodes = drawn_coordinates(nodes, (count + 1) * NODE)?;
+    let elements = nodes.windows(2 * NODE).step_by(NODE).map(|reference| {
+        let mut own = [0.0; 2 * NODE];
+        own.copy_from_slice(reference);
+        CubicBeam2::curved(&own, part, section, material).map_err(|error| wrong(&error))
     });
-    if let Some(error) = signal {
-        return Err(error);
+    let elements = elements.collect::<PyResult<_>>()?;
+    Ok(PlanarStructure::with_nodes(elements, nodes))
+}
+
+impl<E: LineElement> Structure for PlanarStructure<E> {
+    type Element = E;
+    type Law = Loads;
+
+    fn size(&self) -> f64 {
+        self.length()
     }
-    done.map_err(|error| wrong(&error))?;
-    Ok(film)
+
+    fn drawn(&self) -> Vec<f64> {
+        self.drawn()
+    }
+
+    fn system(&self) -> Result<System<E, Loads>, LibraryError> {
+        self.build()
+    }
+
+    fn start(
+        &self,
+        system: &System<E, Loads>,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Motion, LibraryError> {
+        self.start(system, q, v)
+    }
+
+    fn at_rest(&self, system: &System<E, Loads>) -> Motion {
+        self.at_rest(system)
+    }
+
+    fn apply_in_steps(&mut self, steps: LoadSteps) {
+        self.load_steps(steps);
+    }
+
+    fn settled(&self) -> Result<Equilibrium, LibraryError> {
+        self.equilibrium()
+    }
+
+    fn linear(&self) -> Result<Vec<f64>, LibraryError> {
+        self.linear_displacements()
+    }
+
+    fn natural(&self, about: &Equilibrium) -> Result<Vec<Mode>, LibraryError> {
+        self.modes(about)
+    }
+
+    fn energy(system: &System<E, Loads>, q: &[f64], v: &[f64]) -> f64 {
+        system.energy(q, v)
+    }
+
+    fn inner_forces(element: &E, e: &[f64]) -> Vec<f64> {
+        vec![element.axial_force(e, 0.5)]
+    }
 }

@@ -149,6 +149,9 @@ impl NativeDrive {
             (Err(LibraryRunError::Assembly(error)), None) => {
                 Err(InputError::new_err(error.to_string()))
             }
+            (Err(LibraryRunError::SteadyStart(refused)), None) => {
+                Err(problem(py, &refused.problem(&self.drive)))
+            }
             (Err(error), None) => Err(RunError::new_err(error.to_string())),
         }
     }

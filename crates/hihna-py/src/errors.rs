@@ -4,7 +4,7 @@ use hihna::input::{InputError as LibraryInputError, InputErrors, Problem};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 
 create_exception!(
     hihna,
@@ -31,6 +31,14 @@ create_exception!(
     PyValueError,
     "A structure that cannot be built, held or solved."
 );
+
+/// The type of errors of the input: those that have no field to blame say so.
+pub fn input_error_type(py: Python<'_>) -> PyResult<Bound<'_, PyType>> {
+    let kind = py.get_type::<InputError>();
+    kind.setattr("field", py.None())?;
+    kind.setattr("errors", PyTuple::empty(py))?;
+    Ok(kind)
+}
 
 /// All that is wrong with an input, as one exception.
 pub fn input_error(py: Python<'_>, errors: &InputErrors) -> PyErr {
@@ -62,7 +70,9 @@ fn described<'a>(
             entry.set_item("help", &problem.help)?;
             entry.set_item("line", line)?;
             list.append(entry)?;
-            first.get_or_insert(field);
+            if !field.is_empty() {
+                first.get_or_insert(field);
+            }
         }
         let value = error.value(py);
         value.setattr("field", first)?;

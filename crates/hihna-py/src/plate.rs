@@ -1,24 +1,27 @@
 //! Rectangular plates: supports of their edges, loads, statics, modes.
 
-use ancf::element::{BendingRigidity, ThinPlate};
+use ancf::dynamics::Motion;
+use ancf::element::{BendingRigidity, SurfaceElement, ThinPlate};
+use ancf::loads::SurfaceLoads;
 use ancf::material::Isotropic;
-use ancf::statics::Equilibrium;
-use ancf::structure::{Edge, PlateStructure};
+use ancf::statics::{Equilibrium, LoadSteps};
+use ancf::structure::{Edge, Mode, NodeVector, PlateStructure, StructureError as LibraryError};
+use ancf::system::System;
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::errors::StructureError;
+use crate::structure::{
+    Course, Numbers, Steps, Structure, equilibrium, inner_forces, linear_displacements, modes,
+    motion, wrong,
+};
+use crate::user_motion::Raised;
 
 /// A plate with its supports and loads.
 #[pyclass(module = "hihna._native")]
 pub struct NativePlate {
     structure: PlateStructure,
-}
-
-fn wrong(error: &impl ToString) -> PyErr {
-    StructureError::new_err(error.to_string())
 }
 
 fn edges(names: &[String]) -> PyResult<Vec<Edge>> {
@@ -102,8 +105,19 @@ impl NativePlate {
         self.structure.bending_only();
     }
 
-    fn force(&mut self, node: [usize; 2], force: [f64; 3]) {
-        self.structure.force(node, force);
+    /// Holds a component of a vector of a node as drawn.
+    fn hold(&mut self, node: [usize; 2], vector: &str, axis: usize) -> PyResult<()> {
+        self.structure.hold(node, vector_of(vector)?, axis);
+        Ok(())
+    }
+
+    /// Adds a dead generalised force on a vector of a node.
+    fn force(&mut self, node: [usize; 2], vector: &str, force: [f64; 3]) -> PyResult<()> {
+        let vector = vector_of(vector)?;
+        for (axis, value) in force.into_iter().enumerate() {
+            self.structure.slope_force(node, vector, axis, value);
+        }
+        Ok(())
     }
 
     fn pressure(&mut self, pressure: f64) {
@@ -118,58 +132,106 @@ impl NativePlate {
         self.structure.gravity(field);
     }
 
-    /// The equilibrium: coordinates, places of the nodes, iterations.
-    fn equilibrium<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let found = py
-            .detach(|| self.structure.equilibrium())
-            .map_err(|error| wrong(&error))?;
-        let answer = PyDict::new(py);
-        answer.set_item("positions", self.places(py, &found.q))?;
-        answer.set_item("iterations", found.iterations())?;
-        answer.set_item("coordinates", PyArray1::from_vec(py, found.q))?;
-        Ok(answer)
+    /// The drawn coordinates.
+    fn drawn<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.structure.drawn().to_vec())
     }
 
-    /// Modes about the coordinates `about`, or about the drawn shape: frequencies, and the motion of the nodes.
-    fn modes<'py>(&self, py: Python<'py>, about: Option<Vec<f64>>) -> PyResult<Bound<'py, PyDict>> {
-        let drawn = self.structure.drawn();
-        let q = about.unwrap_or_else(|| drawn.to_vec());
-        if q.len() != drawn.len() {
-            return Err(wrong(&"the equilibrium is of another plate"));
-        }
-        let about = Equilibrium {
-            multipliers: vec![0.0; q.len()],
-            reactions: vec![0.0; q.len()],
-            q,
-            corrections: Vec::new(),
-        };
-        let modes = py
-            .detach(|| self.structure.modes(&about))
-            .map_err(|error| wrong(&error))?;
-        let answer = PyDict::new(py);
-        let frequencies = modes.iter().map(|mode| mode.frequency).collect();
-        answer.set_item("frequencies", PyArray1::from_vec(py, frequencies))?;
-        let growths = modes.iter().map(|mode| mode.growth).collect();
-        answer.set_item("growths", PyArray1::from_vec(py, growths))?;
-        let shapes = modes.iter().flat_map(|mode| {
-            let real: Vec<f64> = mode.shape.iter().map(|[real, _]| *real).collect();
-            self.of_nodes(&real)
-        });
-        answer.set_item("shapes", PyArray1::from_vec(py, shapes.collect()))?;
-        Ok(answer)
+    fn equilibrium<'py>(&mut self, py: Python<'py>, steps: Steps) -> PyResult<Bound<'py, PyDict>> {
+        equilibrium(py, &mut self.structure, steps, &Raised::default())
+    }
+
+    fn linear_displacements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        linear_displacements(py, &self.structure, &Raised::default())
+    }
+
+    fn membrane_forces<'py>(
+        &self,
+        py: Python<'py>,
+        coordinates: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        inner_forces(py, &self.structure, &coordinates)
+    }
+
+    fn modes<'py>(
+        &self,
+        py: Python<'py>,
+        about: Option<(Numbers<'py>, Numbers<'py>)>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        modes(py, &self.structure, about, &Raised::default())
+    }
+
+    fn integrate<'py>(&self, py: Python<'py>, course: Course<'py>) -> PyResult<Bound<'py, PyDict>> {
+        motion(py, &self.structure, &course, &Raised::default())
     }
 }
 
-impl NativePlate {
-    /// Places of the nodes, or their motion, one after another.
-    fn of_nodes(&self, q: &[f64]) -> Vec<f64> {
-        let nodes = self.structure.nodes();
-        nodes
-            .flat_map(|node| self.structure.position(q, node))
-            .collect()
+fn vector_of(name: &str) -> PyResult<NodeVector> {
+    match name {
+        "position" => Ok(NodeVector::Position),
+        "along" => Ok(NodeVector::Along),
+        "across" => Ok(NodeVector::Across),
+        other => Err(PyValueError::new_err(format!(
+            "there is no vector `{other}`: they are position, along and across"
+        ))),
+    }
+}
+
+impl Structure for PlateStructure {
+    type Element = ThinPlate;
+    type Law = SurfaceLoads;
+
+    fn size(&self) -> f64 {
+        let [along, _] = self.last();
+        self.position(self.drawn(), [along, 0])[0]
     }
 
-    fn places<'py>(&self, py: Python<'py>, q: &[f64]) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_vec(py, self.of_nodes(q))
+    fn drawn(&self) -> Vec<f64> {
+        self.drawn().to_vec()
+    }
+
+    fn system(&self) -> Result<System<ThinPlate, SurfaceLoads>, LibraryError> {
+        self.build()
+    }
+
+    fn start(
+        &self,
+        system: &System<ThinPlate, SurfaceLoads>,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Motion, LibraryError> {
+        self.start(system, q, v)
+    }
+
+    fn at_rest(&self, _: &System<ThinPlate, SurfaceLoads>) -> Motion {
+        // Held coordinates are held where they are drawn.
+        let mut motion = Motion::zero(self.drawn().len());
+        motion.q.copy_from_slice(self.drawn());
+        motion
+    }
+
+    fn apply_in_steps(&mut self, steps: LoadSteps) {
+        self.load_steps(steps);
+    }
+
+    fn settled(&self) -> Result<Equilibrium, LibraryError> {
+        self.equilibrium()
+    }
+
+    fn linear(&self) -> Result<Vec<f64>, LibraryError> {
+        self.linear_displacements()
+    }
+
+    fn natural(&self, about: &Equilibrium) -> Result<Vec<Mode>, LibraryError> {
+        self.modes(about)
+    }
+
+    fn energy(system: &System<ThinPlate, SurfaceLoads>, q: &[f64], v: &[f64]) -> f64 {
+        system.energy(q, v)
+    }
+
+    fn inner_forces(element: &ThinPlate, e: &[f64]) -> Vec<f64> {
+        let gradient = element.surface_gradient(e, [0.5; 2]);
+        element.membrane_forces(&gradient).to_vec()
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use hihna::drive::Drive;
-use hihna::observe::ProfileRow;
+use hihna::observe::{EdgeRow, ProfileRow};
 use hihna::record::{self, Options, RecordError, Results};
 use hihna::simulate::Outcome;
 use hihna::summary::Summary;
@@ -86,6 +86,26 @@ impl NativeResults {
 
     fn frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         table(py, &self.results.frames)
+    }
+
+    /// Both edges of a belt in space, row by row beside the frames.
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let columns: [(&str, fn(&EdgeRow) -> f64); 8] = [
+            ("time", |row| row.time),
+            ("material_coordinate", |row| row.material_coordinate),
+            ("x0", |row| row.x0),
+            ("y0", |row| row.y0),
+            ("z0", |row| row.z0),
+            ("x1", |row| row.x1),
+            ("y1", |row| row.y1),
+            ("z1", |row| row.z1),
+        ];
+        let table = PyDict::new(py);
+        for (name, value) in columns {
+            let values = self.results.edges.iter().map(value).collect();
+            table.set_item(name, PyArray1::from_vec(py, values))?;
+        }
+        Ok(table)
     }
 
     /// The drive to scale, slip at the end marked, as SVG.

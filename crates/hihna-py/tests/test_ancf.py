@@ -118,3 +118,81 @@ def test_a_rigid_body_at_the_tip():
     own = STEEL.density * thin.area * 2.0
     exact = math.sqrt(3 * STEEL.youngs_modulus * thin.second_moment / ((mass + 33 / 140 * own) * 2.0**3))
     assert found == pytest.approx(exact, rel=3e-3)
+
+
+def test_a_curved_beam_is_free_of_stress_as_drawn():
+    """A quarter of a circle of cubic beams, clamped at one end and pulled at the other along the root's tangent: E I u / F R³ =
+    pi/4 along the force for a thin curved beam (Castigliano), stretch and shear take parts of (h / R)², 4e-4. Coarse meshes
+    lock, the error falls with more than the square of the element's length."""
+    radius, height = 1.0, 0.02
+    section = ancf.Section.rectangle(0.02, height)
+    # Without Poisson's ratio: a fully parametrised beam locks its sections' breathing against bending.
+    metal = ancf.Material(2.07e11, 0.0, 7850.0)
+    # At the angle a the force has the lever R cos a about a section: u = F R³ / E I times the integral of cos² a.
+    exact = math.pi / 4 * radius**3 / (metal.youngs_modulus * section.second_moment)
+    errors = []
+    for count in (16, 32, 64):
+        angle = 0.5 * math.pi * numpy.arange(count + 1) / count
+        inward = numpy.stack([-numpy.cos(angle), -numpy.sin(angle)], axis=1)
+        along = numpy.stack([-numpy.sin(angle), numpy.cos(angle)], axis=1)
+        nodes = numpy.stack([-radius * inward, along, inward], axis=1)
+        beam = ancf.Beam(0.5 * math.pi * radius, count, section, metal, element="cubic-beam", nodes=nodes).clamp(0)
+        numpy.testing.assert_allclose(beam.equilibrium().positions, nodes[:, 0], atol=1e-12)
+        moved = beam.force(beam.last, (0.0, 1.0)).linear_displacements()[-1, 0]
+        errors.append(abs(moved[1] / exact - 1))
+    assert errors[0] / errors[1] > 4 and errors[1] / errors[2] > 4
+    assert errors[-1] < (height / radius) ** 2
+
+
+def test_rigid_bodies_and_slopes_are_told():
+    """A weight fastened to the tip goes where the tip goes and turns as its section turns."""
+    beam = cantilever(8, "belt-beam")
+    body = beam.body("weight", 10.0, 1.0, (2.0, 0.0))
+    bent = beam.fasten(beam.last, body).body_load(body, (0.0, -2e4)).equilibrium()
+    assert bent.vectors.shape == (9, 3, 2) and bent.bodies.shape == (1, 3)
+    numpy.testing.assert_allclose(bent.bodies[0, :2], bent.positions[-1], atol=1e-9)
+    across = bent.vectors[-1, 2]
+    assert bent.bodies[0, 2] == pytest.approx(math.atan2(-across[0], across[1]), abs=1e-9) and bent.bodies[0, 2] < -0.001
+    film = beam.integrate(1e-3, 1e-4, start=bent)
+    numpy.testing.assert_allclose(film.bodies[-1], bent.bodies, atol=1e-6)
+    moving = cantilever(2)
+    moving.fasten(2, moving.body("weight", 10.0, 1.0, (2.0, 0.0)))
+    swing = moving.prescribe_body(0, 1, lambda t: (-0.01 * t * t, -0.02 * t, -0.02)).integrate(0.01, 1e-3)
+    assert swing.bodies[-1, 0, 1] == pytest.approx(-1e-6) and swing.body_rates[-1, 0, 1] == pytest.approx(-2e-4)
+
+
+def test_steps_are_chosen_by_the_error():
+    """With an error tolerance the step is the longest: fewer than the fixed ones, and the same end."""
+    rubber = ancf.Material(youngs_modulus=2.07e7, poisson_ratio=0.0, density=7850.0)
+    beam = ancf.Beam(2.0, 4, SQUARE, rubber).pin(0).gravity((0.0, -9.81))
+    fine = beam.integrate(0.3, 1e-4, method="generalized-alpha", interval=0.3)
+    chosen = beam.integrate(0.3, 1e-2, method="generalized-alpha", interval=0.3, error_tolerance=1e-3)
+    assert 10 < chosen.steps < fine.steps
+    # Errors of 1e-3 m/s over 0.3 s.
+    numpy.testing.assert_allclose(chosen.positions[-1], fine.positions[-1], atol=3e-4)
+
+
+def test_arrays_are_not_copied():
+    """Nodes, bodies and rates are views of what the solver wrote, which Python owns."""
+    film = cantilever(2).integrate(1e-3, 1e-4)
+    for view in (film.vectors, film.positions):
+        assert numpy.shares_memory(view, film.coordinates)
+    for view in (film.rates, film.velocities):
+        assert numpy.shares_memory(view, film.coordinate_rates)
+    bent = cantilever(2).force(2, (0.0, -1.0)).equilibrium()
+    assert numpy.shares_memory(bent.positions, bent.coordinates)
+
+
+@pytest.mark.parametrize("element", ["linear-beam", "belt-beam", "cubic-beam"])
+def test_axial_forces(element):
+    """A hanging bar carries what hangs below the middle of each element. Strains are 1e-6, and without Poisson's ratio a fully
+    parametrised section does not resist being drawn thin."""
+    metal = ancf.Material(2.07e11, 0.0, 7850.0)
+    bar = cantilever(4, element, material=metal, angle=-math.pi / 2).gravity((0.0, -9.81)).force(4, (0.0, -500.0))
+    bent = bar.equilibrium()
+    below = 2.0 - 0.5 * (numpy.arange(4) + 0.5)
+    weight = 7850.0 * SQUARE.area * 9.81
+    numpy.testing.assert_allclose(bar.axial_forces(bent), 500.0 + weight * below, rtol=1e-5)
+    numpy.testing.assert_allclose(bar.axial_forces(bar.drawn()), 0.0, atol=1e-6)
+    with pytest.raises(StructureError, match="another structure"):
+        bar.axial_forces(numpy.zeros(3))

@@ -57,6 +57,15 @@ def test_errors_name_the_field(drive, make, field):
     assert isinstance(caught.value, ValueError)
 
 
+def test_errors_without_a_field_say_so_and_runs_name_theirs():
+    with pytest.raises(hihna.InputError, match="finite") as caught:
+        hihna.Drive.built_in().with_(belt__width=float("nan"))
+    assert caught.value.field is None and len(caught.value.errors) == 0
+    with pytest.raises(hihna.InputError, match="at rest at time zero") as caught:
+        hihna.Drive.built_in().with_({"run.start": "steady"}).run()
+    assert caught.value.field.startswith("pulley") or caught.value.field == "run.start"
+
+
 def test_other_mistakes_are_exceptions_too(drive, tmp_path):
     with pytest.raises(hihna.InputError):
         hihna.Drive.load(tmp_path / "nowhere.toml")
@@ -91,6 +100,9 @@ def test_data_frames(results):
     frames = results.to_pandas("frames")
     assert sorted(frames["time"].unique()) == pytest.approx([0.0, 0.05, 0.1])
     assert set(results.to_pandas("profile")["pulley"]) == {"", "driver", "driven"}
+    assert results.to_pandas("edges").empty, "a belt in the plane has none"
+    with pytest.raises(ValueError, match="history, profile, frames and edges"):
+        results.to_pandas("edge")
 
 
 def test_a_folder_is_written_and_read(results, tmp_path):
@@ -106,6 +118,19 @@ def test_a_folder_is_written_and_read(results, tmp_path):
     assert again.drive.to_dict() == results.drive.to_dict()
     with pytest.raises(ValueError, match="copy"):
         again.save(tmp_path / "other")
+
+
+def test_a_belt_of_plates_has_edges():
+    short = {"run.end_time": 0.002, "run.output_interval": 1e-3, "run.frame_interval": 1e-3}
+    drive = hihna.Drive.load(EXAMPLES / "crowned_pulleys.toml", **short)
+    results = drive.run()
+    edges, frames = results.edges, results.frames
+    numpy.testing.assert_array_equal(edges["material_coordinate"], frames["material_coordinate"])
+    # The frames show the middle line: half-way between the edges but for the plate's curvature across.
+    middle = 0.5 * (edges["z0"] + edges["z1"])
+    width = drive.to_dict()["belt"]["width"]
+    numpy.testing.assert_allclose(middle, frames["z"], atol=1e-2 * width)
+    assert (edges["z1"] - edges["z0"]).min() > 0.9 * width
 
 
 def test_steady_running_agrees_with_theory():

@@ -8,6 +8,7 @@ use hihna::layout::Layout;
 use hihna::observe::{EdgeRow, ProfileRow};
 use serde::Serialize;
 
+use crate::drawing::free_side;
 use crate::path::feet;
 use crate::series::short;
 use crate::strip::{Sides, Strip};
@@ -45,6 +46,8 @@ struct Disc {
     name: String,
     center: [f64; 2],
     radius: f64,
+    /// Direction in which no belt lies around it: where its name has room.
+    free: [f64; 2],
     /// Angle at each frame [rad].
     angle: Vec<f32>,
     /// Centre at each frame [m], of a pulley that moves.
@@ -117,8 +120,10 @@ pub fn animation(
     let pulleys = drive
         .pulley
         .iter()
-        .map(|pulley| Disc {
+        .enumerate()
+        .map(|(i, pulley)| Disc {
             name: pulley.name.clone(),
+            free: free_side(layout, i),
             center: pulley.center,
             radius: pulley.radius,
             angle: angles(history, &pulley.name, &times),

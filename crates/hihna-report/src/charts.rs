@@ -2,6 +2,7 @@
 
 use hihna::drive::Drive;
 use hihna::history::History;
+use hihna::quantities::significant;
 use plotly::common::{DashType, Line, Mode, Orientation};
 use plotly::layout::{Axis, HoverMode, Legend, Margin};
 use plotly::{Layout, Plot, Scatter};
@@ -23,6 +24,8 @@ pub struct Chart {
     pub title: String,
     /// Its data and layout, as plotly.js takes them.
     pub plot: Plot,
+    /// The least and the greatest value of its curves, in words for those who do not see them.
+    pub ranges: String,
 }
 
 /// A curve of a chart over time.
@@ -188,7 +191,8 @@ fn hub_loads(names: &[&str], history: &History) -> Vec<Curve> {
             values: part("x")
                 .iter()
                 .zip(&part("y"))
-                .map(|(x, y)| x.hypot(*y))
+                .zip(part("z").iter().chain(std::iter::repeat(&0.0)))
+                .map(|((x, y), z)| x.hypot(*y).hypot(*z))
                 .collect(),
         }
     };
@@ -218,6 +222,7 @@ fn energies(history: &History) -> Vec<Curve> {
 fn over_time(time: &[f64], title: &str, axis: &str, curves: Vec<Curve>) -> Chart {
     let mut plot = Plot::new();
     let several = curves.len() > 1;
+    let ranges = ranges(&curves, axis);
     for (i, curve) in curves.into_iter().enumerate() {
         let (x, y) = thinned(time, &curve.values);
         plot.add_trace(
@@ -231,7 +236,30 @@ fn over_time(time: &[f64], title: &str, axis: &str, curves: Vec<Curve>) -> Chart
     Chart {
         title: title.to_owned(),
         plot,
+        ranges,
     }
+}
+
+/// ` over time; driver from 0 to 12.00, driven from 0 to 12.43 rad/s`.
+fn ranges(curves: &[Curve], axis: &str) -> String {
+    let unit = (axis.split_once('[')).map_or("", |(_, unit)| unit.trim_end_matches(']'));
+    let range = |curve: &Curve| {
+        let finite = || {
+            curve
+                .values
+                .iter()
+                .copied()
+                .filter(|value| value.is_finite())
+        };
+        let [least, most] = [finite().reduce(f64::min)?, finite().reduce(f64::max)?];
+        let (least, most) = (significant(least), significant(most));
+        Some(format!("{} from {least} to {most}", curve.name))
+    };
+    let ranges: Vec<String> = curves.iter().filter_map(range).collect();
+    if ranges.is_empty() {
+        return String::new();
+    }
+    format!(" over time; {} {unit}", ranges.join(", "))
 }
 
 /// How the curve of a number is drawn.

@@ -84,6 +84,7 @@ pub fn along_the_belt(drive: &Drive, path: &Path, profile: &[ProfileRow]) -> Vec
             Chart {
                 title: (*title).to_owned(),
                 plot,
+                ranges: String::new(),
             }
         })
         .collect()

@@ -21,15 +21,19 @@ const EXHAUSTED: f64 = 1.0 - 1.0e-6;
 /// A surface that moves slower than this part of the drive's nominal speed stands; the rest is rounding.
 const STANDING: f64 = 1.0e-6;
 
+/// Colours are those of the page, or of the notebook (JupyterLab, VS Code) that shows the drawing.
 const STYLE: &str = "\
+.hihna-drive{--hihna-paper:var(--page,var(--jp-layout-color0,var(--vscode-editor-background,#fff)))}\
 .hihna-drive{max-width:100%;height:auto;font:500 14px system-ui,sans-serif}\
-.hihna-drive text{fill:currentColor}\
+.hihna-drive{overflow:visible}\
+.hihna-drive text{fill:currentColor;paint-order:stroke;stroke:var(--hihna-paper);stroke-width:4px;stroke-linejoin:round}\
+.hihna-drive .inside{stroke:none}\
 .hihna-drive .pulley{fill:var(--pulley,#8883);stroke:currentColor;stroke-width:1}\
 .hihna-drive .thin{stroke:currentColor;stroke-width:1.2;fill:none}\
 .hihna-drive .belt{stroke:var(--belt,#777);stroke-width:4;fill:none}\
 .hihna-drive .wrap{stroke:var(--wrap,#0072b2);stroke-width:6;fill:none}\
 .hihna-drive .slip{stroke:var(--slip,#d55e00);stroke-width:9;fill:none}\
-.hihna-drive .letter{fill:var(--page,#fff);stroke:currentColor;stroke-width:1}";
+.hihna-drive .letter{fill:var(--hihna-paper);stroke:currentColor;stroke-width:1}";
 
 /// `A` of the first span, `B` of the second, `AA` after `Z`.
 pub fn letter(mut index: usize) -> String {
@@ -62,7 +66,7 @@ pub fn drawing(drive: &Drive, layout: &Layout, belt: &[ProfileRow], speeds: &[f6
     // Writing to a string cannot fail.
     let _ = write!(
         svg,
-        "<svg class=\"hihna-drive\" viewBox=\"0 0 {:.0} {:.0}\" width=\"{:.0}\" role=\"img\" aria-label=\"Drawing of the drive, to scale: {} pulleys\"><style>{STYLE}</style>",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"hihna-drive\" viewBox=\"0 0 {:.0} {:.0}\" width=\"{:.0}\" role=\"img\" aria-label=\"Drawing of the drive, to scale: {} pulleys\"><style>{STYLE}</style>",
         view.width,
         view.height,
         view.width,
@@ -106,13 +110,13 @@ pub fn drawing(drive: &Drive, layout: &Layout, belt: &[ProfileRow], speeds: &[f6
         let (x, y) = (x + side * along[1], y + side * along[0]);
         let _ = write!(
             svg,
-            "<circle class=\"letter\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"11\"/><text x=\"{x:.2}\" y=\"{:.2}\" text-anchor=\"middle\">{}</text>",
+            "<circle class=\"letter\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"11\"/><text class=\"inside\" x=\"{x:.2}\" y=\"{:.2}\" text-anchor=\"middle\">{}</text>",
             y + 5.0,
             letter(i)
         );
     }
-    for pulley in &drive.pulley {
-        svg.push_str(&name(&view, pulley));
+    for (i, pulley) in drive.pulley.iter().enumerate() {
+        svg.push_str(&name(&view, pulley, free_side(layout, i)));
     }
     svg.push_str(&view.scale_bar());
     svg.push_str("</svg>");
@@ -157,18 +161,35 @@ fn hub(view: &View, pulley: &Pulley, speed: f64) -> String {
     svg
 }
 
-/// The pulley's name, within it or, if it is too small, under it.
-fn name(view: &View, pulley: &Pulley) -> String {
+/// The direction from a pulley's centre in which no belt lies around it.
+pub fn free_side(layout: &Layout, pulley: usize) -> [f64; 2] {
+    let arc = layout.arcs.iter().find(|arc| arc.pulley == pulley);
+    arc.map_or([0.0, -1.0], |arc| {
+        let (sine, cosine) = (arc.start_angle + 0.5 * arc.sweep).sin_cos();
+        [-cosine, -sine]
+    })
+}
+
+/// The pulley's name, within it or, if it is too small, on its free side.
+fn name(view: &View, pulley: &Pulley, free: [f64; 2]) -> String {
     let [x, y] = view.place(pulley.center);
     let radius = pulley.radius * view.scale;
     let width = 7.6 * pulley.name.chars().count() as f64;
-    let y = if width < 1.5 * radius {
-        y - 0.14 * radius - 6.0
+    let (class, anchor, x, y) = if width < 1.5 * radius {
+        (" class=\"inside\"", "middle", x, y - 0.14 * radius - 6.0)
     } else {
-        y + radius + 22.0
+        let away = radius + 10.0;
+        let anchor = match free[0] {
+            right if right > 0.5 => "start",
+            right if right < -0.5 => "end",
+            _ => "middle",
+        };
+        // Letters stand on their line: below the pulley they need their height, beside it half of it.
+        let y = y - away * free[1] + 5.0 - 5.0 * free[1];
+        ("", anchor, x + away * free[0], y)
     };
     format!(
-        "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"middle\">{}</text>",
+        "<text{class} x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\">{}</text>",
         escaped(&pulley.name)
     )
 }
@@ -322,6 +343,25 @@ mod tests {
         assert_eq!(arrows(&[0.0, f64::NAN]), 0);
     }
 
+    /// A name that does not fit its pulley stands where the belt does not.
+    #[test]
+    fn long_names_stand_on_the_free_side() {
+        let text = include_str!("../../../examples/two_pulley.toml");
+        let drive = hihna::input::parse("drive", text, &[]).unwrap();
+        let layout = Layout::new(&drive.pulley).unwrap();
+        // The belt is around the left of the left pulley and the right of the right one.
+        let sides = [0, 1].map(|i| free_side(&layout, i));
+        for (side, expected) in sides.into_iter().zip([1.0, -1.0]) {
+            assert!((side[0] - expected).abs() < 1e-12 && side[1].abs() < 1e-12);
+        }
+        let view = View::of(&drive, &layout);
+        let mut pulley = drive.pulley[0].clone();
+        assert!(name(&view, &pulley, sides[0]).contains("class=\"inside\""));
+        pulley.name = "a pulley with quite a long name indeed".into();
+        let outside = name(&view, &pulley, sides[0]);
+        assert!(outside.contains("text-anchor=\"start\"") && !outside.contains("class"));
+    }
+
     #[test]
     fn names_cannot_carry_markup() {
         let text = include_str!("../../../examples/two_pulley.toml");
@@ -330,5 +370,7 @@ mod tests {
         let layout = Layout::new(&drive.pulley).unwrap();
         let svg = drawing(&drive, &layout, &[], &[12.0, -3.0]);
         assert!(!svg.contains("<script>"));
+        // Saved to a file of its own it is a picture, too.
+        assert!(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
     }
 }

@@ -125,7 +125,10 @@ fn hub_load(results: &Results) -> Card {
     let loads = results.drive.pulley.iter().map(|p| {
         let [x, y] = ["0", "1"]
             .map(|axis| results.number(&["steady", "pulley", &p.name, "hub_force", axis]));
-        (p, x.hypot(y))
+        let sideways = results.number(&["steady", "pulley", &p.name, "hub_force_z"]);
+        // Belts in the plane have none.
+        let z = if sideways.is_finite() { sideways } else { 0.0 };
+        (p, x.hypot(y).hypot(z))
     });
     let Some((pulley, load)) = greatest(loads) else {
         return none(label);
@@ -145,25 +148,32 @@ fn hub_load(results: &Results) -> Card {
 fn power(results: &Results) -> Card {
     let of = |what: &str| results.number(&["steady", what]);
     let (put_in, out, lost) = (of("power_in"), of("power_out"), of("power_lost"));
-    let note = if put_in > 0.0 && out > 0.0 {
-        format!(
-            "{} out, {} lost: efficiency {}",
-            with_prefix(out, "W"),
-            with_prefix(lost, "W"),
-            percent(out / put_in)
-        )
-    } else {
-        format!(
-            "{} out, {} lost",
-            with_prefix(out, "W"),
-            with_prefix(lost, "W")
-        )
-    };
+    let note = format!(
+        "{} out, {} lost{}",
+        with_prefix(out, "W"),
+        with_prefix(lost, "W"),
+        rest_of_power(put_in, out, lost)
+    );
     Card {
         label: "Power put in",
         value: with_prefix(put_in, "W"),
         note,
         alarm: false,
+    }
+}
+
+/// What the power does that is neither taken out nor lost: it sets the drive in motion, or there is none of it and the
+/// efficiency is that of steady running.
+fn rest_of_power(put_in: f64, out: f64, lost: f64) -> String {
+    let stored = put_in - out - lost;
+    let turned_over = put_in.abs().max(out.abs()).max(lost.abs());
+    if stored.abs() > STEADY * turned_over {
+        let where_to = if stored > 0.0 { "into" } else { "out of" };
+        format!(", {} {where_to} motion", with_prefix(stored.abs(), "W"))
+    } else if put_in > 0.0 && out > 0.0 {
+        format!(": efficiency {}", percent(out / put_in))
+    } else {
+        String::new()
     }
 }
 
@@ -204,19 +214,58 @@ fn audit(results: &Results) -> Card {
     }
 }
 
-/// A sentence if means over the end of the run hide a motion.
-fn unsteady(results: &Results) -> Option<String> {
-    let scatter = span_names(results)
-        .into_iter()
-        .enumerate()
-        .map(|(i, name)| {
-            let of = |object: &str| results.number(&[object, "span", &name, "tension"]);
-            (i, (of("scatter") / of("steady")).abs())
-        });
-    let (span, part) = greatest(scatter).filter(|(_, part)| *part > STEADY)?;
-    Some(format!(
-        "The drive has not settled: over the last tenth of the run the tension of span {} still varies by {} (standard deviation). Means are those of a moving drive; a longer run may settle.",
-        letter(span),
-        percent(part)
-    ))
+/// Sentences if means over the end of the run hide a motion.
+fn unsteady(results: &Results) -> Vec<String> {
+    let part = |object: &str, name: &str, what: &str| {
+        let of = |means: &str| results.number(&[means, object, name, what]);
+        (of("scatter") / of("steady")).abs()
+    };
+    let spans = span_names(results).into_iter().enumerate();
+    let spans = spans.map(|(i, name)| {
+        let part = part("span", &name, "tension");
+        (format!("tension of span {}", letter(i)), part)
+    });
+    let free = results.drive.pulley.iter().filter(|p| !p.is_driver());
+    let pulleys = free.map(|pulley| {
+        let part = part("pulley", &pulley.name, "speed");
+        (format!("speed of {}", pulley.name), part)
+    });
+    let worst = [greatest(spans), greatest(pulleys)].into_iter().flatten();
+    let moving: Vec<String> = worst
+        .filter(|(_, part)| *part > STEADY)
+        .map(|(what, part)| format!("the {what} still varies by {:.0} %", 100.0 * part))
+        .collect();
+    if moving.is_empty() {
+        return Vec::new();
+    }
+    let moving = moving.join(" and ");
+    let is_shaken = results
+        .drive
+        .pulley
+        .iter()
+        .any(|p| !p.irregularity.is_empty());
+    vec![if is_shaken {
+        format!(
+            "The drive swings with its irregular driver: at the end of the run {moving} (standard deviation). Means are those of a swinging drive."
+        )
+    } else {
+        format!(
+            "The drive has not settled: at the end of the run {moving} (standard deviation). Means are those of a moving drive; a longer run may settle."
+        )
+    }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A drive that speeds up has no efficiency; one that runs steadily, but for a part below what counts as steady, has.
+    #[test]
+    fn power_that_is_stored_is_no_loss_of_efficiency() {
+        assert_eq!(rest_of_power(210.0, 87.5, 2.5), ", 120.0 W into motion");
+        assert_eq!(rest_of_power(-0.5, 0.0, 0.02), ", 520.0 mW out of motion");
+        assert_eq!(rest_of_power(100.0, 97.0, 2.0), ": efficiency 97.00 %");
+        assert_eq!(rest_of_power(2.0, 0.0, 2.0), "");
+        assert_eq!(rest_of_power(f64::NAN, 0.0, 0.0), "");
+    }
 }

@@ -1,7 +1,8 @@
 //! A folder of results as one self-contained HTML page: drawing, tables, charts and an animation that
-//! open without network; of a map of steady running its charts. The heavy crates of the project live here, away from its core.
+//! open without network; of a map of steady running, or a Campbell diagram, its charts. The heavy crates of the project live here, away from its core.
 
 mod animation;
+mod campbell;
 mod charts;
 mod distribution;
 mod drawing;
@@ -69,10 +70,12 @@ pub fn result_drawing(results: &Results) -> Result<String, ReportError> {
     Ok(drawing(&results.drive, &layout, belt, &speeds))
 }
 
-/// Reads the folder `dir` of a run or of a map of steady running and writes its `report.html`; returns where that is.
+/// Reads the folder `dir` of a run, of a map of steady running or of a Campbell diagram, and writes its `report.html`; returns where that is.
 pub fn write(dir: &Path) -> Result<PathBuf, ReportError> {
-    let page = if dir.join(map::FILE).exists() {
-        map::render(&map::Map::read(dir)?)?
+    let page = if dir.join(campbell::FILE).exists() {
+        campbell::page(dir)?
+    } else if dir.join(map::FILE).exists() {
+        map::page::map_page(&map::Map::read(dir)?)?
     } else {
         html(&Results::read(dir)?)?
     };
@@ -81,9 +84,13 @@ pub fn write(dir: &Path) -> Result<PathBuf, ReportError> {
     let draft = dir.join(".report.html");
     fs::write(&draft, page)
         .and_then(|()| fs::rename(&draft, &path))
-        .map_err(|cause| ReportError::Write {
-            path: path.clone(),
-            cause,
+        .map_err(|cause| {
+            // Half a page is nobody's; if it cannot be removed, the error says where it is.
+            let _ = fs::remove_file(&draft);
+            ReportError::Write {
+                path: path.clone(),
+                cause,
+            }
         })?;
     Ok(path)
 }

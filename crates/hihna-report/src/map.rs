@@ -1,7 +1,7 @@
 //! A map of steady running, read from the folder of `hihna steady --map`.
 
 mod charts;
-mod page;
+pub mod page;
 
 use std::fs;
 use std::path::Path;
@@ -9,8 +9,6 @@ use std::path::Path;
 use hihna::drive::Drive;
 use hihna::input::{self, NumberField};
 use hihna::record::ReadError;
-
-pub use page::render;
 
 /// The file that makes a folder one of a map.
 pub const FILE: &str = "map.csv";

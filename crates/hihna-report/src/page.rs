@@ -14,13 +14,14 @@ use crate::distribution::along_the_belt;
 use crate::drawing::drawing;
 use crate::headline::Headline;
 use crate::inputs::inputs;
-use crate::tables::{Table, audit, computation, result_tables};
+use crate::tables::{Table, audit, computation, means, result_tables};
 
 #[derive(Template)]
 #[template(path = "report.html")]
 struct Page<'a> {
     title: &'a str,
     headline: Headline,
+    means: String,
     drawing: String,
     chapters: Vec<Chapter>,
     has_frames: bool,
@@ -53,6 +54,7 @@ struct Chapter {
 /// A chart whose data stand in the page's data.
 struct Figure {
     title: String,
+    ranges: String,
     number: usize,
 }
 
@@ -75,6 +77,7 @@ pub fn render(results: &Results, layout: &Layout) -> Result<String, ReportError>
     let page = Page {
         title: titled(drive),
         headline: Headline::new(results),
+        means: means(results),
         drawing: drawing(drive, layout, last_profile(results), &speeds(results)),
         chapters,
         has_frames: animation.is_some(),
@@ -136,6 +139,7 @@ fn chapters(results: &Results, layout: &Layout, plots: &mut Vec<Plot>) -> Vec<Ch
                 plots.push(chart.plot);
                 Figure {
                     title: chart.title,
+                    ranges: chart.ranges,
                     number: plots.len() - 1,
                 }
             })

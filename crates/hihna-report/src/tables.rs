@@ -1,5 +1,6 @@
 //! Tables of the page: what the run found, pulley by pulley and span by span.
 
+use hihna::drive::Start;
 use hihna::quantities::{degrees, percent, plain, significant, with_prefix};
 use hihna::record::Results;
 
@@ -30,14 +31,28 @@ impl Table {
     }
 }
 
-/// Means over the last tenth of the run, of pulleys and of spans.
+/// Over what the means are taken, in words.
+pub fn means(results: &Results) -> String {
+    let settling = &results.summary["settling"];
+    if settling["reached"].as_bool() == Some(true) {
+        let window = results.number(&["settling", "window"]);
+        format!(
+            "means over the last two windows of {}",
+            with_prefix(window, "s")
+        )
+    } else {
+        "means over the last tenth of the run".to_owned()
+    }
+}
+
+/// Means of pulleys, hubs and spans.
 pub fn result_tables(results: &Results) -> [Table; 3] {
     [pulleys(results), hubs(results), spans(results)]
 }
 
 fn pulleys(results: &Results) -> Table {
     let mut table = Table::new(
-        "Pulleys, means over the last tenth of the run",
+        &format!("Pulleys, {}", means(results)),
         &[
             "Pulley",
             "Speed",
@@ -70,33 +85,55 @@ fn pulleys(results: &Results) -> Table {
 }
 
 fn hubs(results: &Results) -> Table {
-    let mut table = Table::new(
-        "Hub loads: force of the belt on the pulley, means over the last tenth of the run",
-        &[
-            "Pulley",
-            "Magnitude",
-            "Along x",
-            "Along y",
-            "Direction",
-            "Largest in the run",
-            "Tension on",
-            "Tension off",
-        ],
+    let in_space = results.drive.belt.element.is_spatial();
+    let mut header = vec!["Pulley", "Magnitude", "Along x", "Along y"];
+    if in_space {
+        header.push("Along z");
+    }
+    header.extend([
+        "Direction",
+        "Largest in the run",
+        "Tension on",
+        "Tension off",
+    ]);
+    if in_space {
+        header.extend(["Moment about x", "Moment about y", "Belt off its middle"]);
+    }
+    let caption = format!(
+        "Hub loads: force of the belt on the pulley, {}",
+        means(results)
     );
+    let mut table = Table::new(&caption, &header);
     for pulley in &results.drive.pulley {
         let of = |what: &str| results.number(&["steady", "pulley", &pulley.name, what]);
+        let moment =
+            |axis: &str| results.number(&["steady", "pulley", &pulley.name, "hub_moment", axis]);
         let [x, y] = ["0", "1"]
             .map(|axis| results.number(&["steady", "pulley", &pulley.name, "hub_force", axis]));
-        table.row([
+        let z = if in_space { of("hub_force_z") } else { 0.0 };
+        let mut row = vec![
             pulley.name.clone(),
-            with_prefix(x.hypot(y), "N"),
+            with_prefix(x.hypot(y).hypot(z), "N"),
             with_prefix(x, "N"),
             with_prefix(y, "N"),
+        ];
+        if in_space {
+            row.push(with_prefix(z, "N"));
+        }
+        row.extend([
             degrees(y.atan2(x)),
             with_prefix(largest_hub_load(results, &pulley.name), "N"),
             with_prefix(of("tension_in"), "N"),
             with_prefix(of("tension_out"), "N"),
         ]);
+        if in_space {
+            row.extend([
+                with_prefix(moment("0"), "N m"),
+                with_prefix(moment("1"), "N m"),
+                with_prefix(of("belt_offset"), "m"),
+            ]);
+        }
+        table.row(row);
     }
     table
 }
@@ -107,11 +144,11 @@ pub fn largest_hub_load(results: &Results, pulley: &str) -> f64 {
         let name = format!("{pulley}.hub_force_{axis}");
         results.history.column(&name).unwrap_or_default()
     };
-    let magnitudes = column("x")
-        .into_iter()
-        .zip(column("y"))
-        .map(|(x, y)| x.hypot(y));
-    magnitudes.fold(f64::NAN, f64::max)
+    let sideways = column("z").into_iter().chain(std::iter::repeat(0.0));
+    let magnitudes = column("x").into_iter().zip(column("y")).zip(sideways);
+    magnitudes
+        .map(|((x, y), z)| x.hypot(y).hypot(z))
+        .fold(f64::NAN, f64::max)
 }
 
 /// Names of the spans in order, `from-to`.
@@ -126,10 +163,9 @@ pub fn span_names(results: &Results) -> Vec<String> {
 
 fn spans(results: &Results) -> Table {
     let mut table = Table::new(
-        "Spans, means over the last tenth of the run",
+        &format!("Spans, {}", means(results)),
         &[
             "Span",
-            "Between",
             "Tension",
             "± (std. dev.)",
             "Least in the run",
@@ -148,8 +184,7 @@ fn spans(results: &Results) -> Table {
         let least = tension.iter().copied().fold(f64::NAN, f64::min);
         let largest = tension.iter().copied().fold(f64::NAN, f64::max);
         table.row([
-            letter(i),
-            name.clone(),
+            format!("{} {name}", letter(i)),
             with_prefix(of("tension"), "N"),
             with_prefix(results.number(&["scatter", "span", name, "tension"]), "N"),
             with_prefix(least, "N"),
@@ -201,7 +236,6 @@ pub fn audit(results: &Results) -> Table {
 pub fn computation(results: &Results) -> Table {
     let model = |what: &str| results.number(&["model", what]);
     let solver = |what: &str| results.number(&["solver", what]);
-    let drive = &results.drive;
     let word = |object: &str, key: &str| {
         results.summary[object][key]
             .as_str()
@@ -214,32 +248,47 @@ pub fn computation(results: &Results) -> Table {
     row(
         "Mesh",
         format!(
-            "{} elements of kind {}, {} coordinates, {} contact points",
+            "{}{} elements of kind {}, {} coordinates, {} contact points",
             model("elements"),
+            match model("elements_across") {
+                across if across > 1.0 => format!(" × {across}"),
+                _ => String::new(),
+            },
             word("model", "element"),
             model("dofs"),
             model("contact_points")
         ),
     );
+    let start = match results.drive.run.start {
+        Start::Rest => "equilibrium at rest",
+        Start::Steady => "steady running",
+    };
     row(
         "Start",
         format!(
-            "equilibrium at rest in {} iterations: tension {}, the belt sinks {} into the pulleys",
+            "{start} in {} iterations: tension {}, the belt sinks {} into the pulleys",
             results.number(&["start", "iterations"]),
             with_prefix(results.number(&["start", "tension"]), "N"),
             with_prefix(results.number(&["start", "penetration"]), "m")
         ),
     );
     row("Integrator", word("solver", "integrator"));
-    row("Accuracy aimed at", significant(drive.run.accuracy));
+    row(
+        "Accuracy aimed at",
+        format!(
+            "{}; the balances may leave {:.0e}",
+            significant(results.drive.run.accuracy),
+            results.number(&["audit", "tolerance"])
+        ),
+    );
     row(
         "Steps",
         format!(
-            "{}, {} of them halved, {} by the fall-back; {:.4} s on average",
+            "{}, {} tried again at half the length, {} by the fall-back; {} on average",
             solver("steps"),
             solver("halved_steps"),
             solver("fallback_steps"),
-            drive.run.end_time / solver("steps"),
+            with_prefix(results.number(&["end", "time"]) / solver("steps"), "s"),
         ),
     );
     row(

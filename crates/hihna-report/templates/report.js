@@ -11,7 +11,9 @@
   };
   const charts = [...document.querySelectorAll(".chart")];
   const themed = (layout) => {
-    const axis = { gridcolor: colour("--line"), zerolinecolor: colour("--soft"), linecolor: colour("--line"), hoverformat: ".5~g" };
+    const axis = { gridcolor: colour("--line"), zerolinecolor: colour("--soft"), linecolor: colour("--line"), hoverformat: ".5~g", exponentformat: "power" };
+    // Titles keep clear of long tick labels.
+    const titled = (one) => ({ ...one, ...axis, title: { ...one?.title, standoff: 10 } });
     return {
       ...layout,
       paper_bgcolor: "rgba(0,0,0,0)",
@@ -21,8 +23,8 @@
       hoverlabel: { bgcolor: colour("--panel"), bordercolor: colour("--line"), font: { color: colour("--ink") } },
       height: undefined,
       autosize: true,
-      xaxis: { ...layout.xaxis, ...axis },
-      yaxis: { ...layout.yaxis, ...axis },
+      xaxis: titled(layout.xaxis),
+      yaxis: titled(layout.yaxis),
     };
   };
   const draw = () => {
@@ -37,8 +39,7 @@
   const redraw = [draw];
   const setTheme = (theme) => {
     root.dataset.theme = theme;
-    button.textContent = theme === "dark" ? "Light" : "Dark";
-    button.setAttribute("aria-pressed", String(theme === "dark"));
+    button.textContent = theme === "dark" ? "Light theme" : "Dark theme";
     for (const one of redraw) one();
   };
   const system = matchMedia("(prefers-color-scheme: dark)");
@@ -54,7 +55,7 @@
     // Paper is narrower than the window, and the browser lays it out only after this.
     for (const chart of charts) {
       const alone = chart.closest(".charts").children.length === 1;
-      Plotly.relayout(chart, { autosize: false, width: alone ? 680 : 330, height: 220 });
+      Plotly.relayout(chart, { autosize: false, width: alone ? 680 : 330, height: 220, "font.size": 9, "xaxis.title.font.size": 9, "yaxis.title.font.size": 9 });
     }
   });
   addEventListener("afterprint", () => setTheme(wanted()));
@@ -229,8 +230,18 @@
           pen.fillStyle = colour("--pulley");
           pen.fillRect(X(x) - half, Y(y) - 10, 2 * half, 20);
           pen.fillStyle = colour("--ink");
+          pen.fillText(p.name, X(x), Y(y) + 4.5);
+          continue;
         }
-        pen.fillText(p.name, X(x), inside ? Y(y) + 4.5 : Y(y) + r + 22);
+        // On the side where no belt lies, and legible on whatever is there.
+        const [right, up] = p.free;
+        pen.textAlign = right > 0.5 ? "left" : right < -0.5 ? "right" : "center";
+        const at = [X(x) + (r + 10) * right, Y(y) - (r + 10) * up + 4.5 - 5 * up];
+        pen.lineWidth = 4;
+        pen.strokeStyle = colour("--page");
+        pen.strokeText(p.name, ...at);
+        pen.fillText(p.name, ...at);
+        pen.textAlign = "center";
       }
     };
 

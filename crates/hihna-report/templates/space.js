@@ -127,7 +127,12 @@ const spacePainter = (film, { stage, path, tension, floats, shade, colour }) => 
       }
       line(rims[near > 0 ? 1 : 0], soft, 1);
       const far = rims[near > 0 ? 0 : 1];
-      for (let k = 0; k < FACETS; k++) if (turned(radial(drum, turn(k + 0.5)))[2] > 0) line([far[k], far[k + 1]], soft, 1);
+      const faces = (k) => turned(radial(drum, turn(k + 0.5)))[2] > 0;
+      for (let k = 0; k < FACETS; k++) {
+        if (faces(k)) line([far[k], far[k + 1]], soft, 1);
+        // Where the surface turns away its outline joins the rims.
+        if (faces(k) !== faces(k + 1)) line(Array.from({ length: RINGS + 1 }, (_, j) => on(ring(j), turn(k + 1))), soft, 1);
+      }
     };
     pen.lineJoin = "round";
     paintBelt(behind);

@@ -224,3 +224,68 @@ def test_a_map_of_three_fields_is_refused(tmp_path):
     subprocess.run([HIHNA, "steady", "--model", "fe", *arguments, "--out", place], check=True, capture_output=True)
     done = subprocess.run([HIHNA, "report", place], check=False, capture_output=True, text=True)
     assert done.returncode == 2 and "3 fields" in done.stderr
+
+
+def test_a_campbell_diagram_is_drawn(page, tmp_path):
+    place = str(tmp_path / "modes")
+    arguments = ["--set", "pulley.driven.torque=-1", "--modes", "3", "--map", "pulley.driver.speed=6:12:3", "--out", place]
+    subprocess.run([HIHNA, "steady", "--model", "fe", *arguments], check=True, capture_output=True)
+    subprocess.run([HIHNA, "report", place], check=True, capture_output=True)
+    open_report(page, tmp_path / "modes")
+    curves = page.eval_on_selector_all(".chart", "all => all.map(c => c.data.map(d => d.name))")
+    assert len(curves) >= 3 and curves[0] == ["mode 1", "mode 2", "mode 3"]
+    titles = page.eval_on_selector_all(".chart", "all => all.flatMap(c => [c.layout.xaxis.title.text, c.layout.yaxis.title.text])")
+    assert titles[:2] == ["pulley.driver.speed [rad/s]", "Natural frequency [Hz]"]
+    keep(page, "campbell", full_page=True)
+    assert page.troubles == []
+
+
+def test_a_phone_needs_no_sideways_scrolling(browser, reports):
+    """Tables and the drawing scroll within themselves; the page does not."""
+    context = browser.new_context(viewport={"width": 390, "height": 800}, offline=True)
+    page = context.new_page()
+    for name in ("base", "plates"):
+        open_report(page, reports / name)
+        assert page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+    context.close()
+
+
+def test_names_keep_clear_of_the_belt(page, reports):
+    """The small pulleys of the serpentine are named beside, where no belt lies: no name crosses a span or an arc of its own."""
+    open_report(page, reports / "idler")
+    crossings = page.evaluate(
+        """(() => {
+          const box = (e) => e.getBoundingClientRect();
+          const names = [...document.querySelectorAll('.hihna-drive text:not(.inside)')].filter((t) => !t.textContent.includes(' '));
+          const hits = (name, line) => {
+            const [b, steps] = [box(name), 400];
+            const m = line.getScreenCTM();
+            for (let k = 0; k <= steps; k++) {
+              const p = line.getPointAtLength((line.getTotalLength() * k) / steps).matrixTransform(m);
+              if (p.x > b.left && p.x < b.right && p.y > b.top && p.y < b.bottom) return true;
+            }
+            return false;
+          };
+          const belt = [...document.querySelectorAll('.hihna-drive .belt, .hihna-drive .wrap')];
+          return { names: names.map((n) => n.textContent), hits: names.filter((n) => belt.some((l) => hits(n, l))).map((n) => n.textContent) };
+        })()"""
+    )
+    assert "generator" in crossings["names"] and crossings["hits"] == []
+
+
+def test_the_pictures_of_the_guide(browser, reports):
+    """What docs/src/images keeps: with SCREENSHOTS=docs/src/images and `-k guide` it is made anew."""
+    context = browser.new_context(viewport={"width": 1280, "height": 900}, device_scale_factor=0.75, offline=True)
+    page = context.new_page()
+    open_report(page, reports / "base")
+    below = page.locator("#speeds").bounding_box()["y"] - 20
+    picture = page.screenshot(full_page=True, clip={"x": 0, "y": 0, "width": 1280, "height": below})
+    open_report(page, reports / "plates")
+    page.locator("#stage").scroll_into_view_if_needed()
+    plates = page.locator("#stage").screenshot()
+    for name, image in (("report", picture), ("report_plates", plates)):
+        # A blank page compresses to a few kilobytes.
+        assert image.startswith(b"\x89PNG") and len(image) > 20_000
+        if folder := os.environ.get("SCREENSHOTS"):
+            (pathlib.Path(folder) / f"{name}.png").write_bytes(image)
+    context.close()

@@ -3,6 +3,7 @@
 mod read;
 mod vtk;
 
+use std::cell::OnceCell;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -102,17 +103,18 @@ pub fn write(
     folder.finish()
 }
 
-/// A result folder in the making. Its files stand in a hidden folder beside its place until
-/// [`Folder::finish`]; dropped before that, it leaves nothing.
+/// A result folder in the making. From its first file on they stand in a hidden folder beside its place, until
+/// [`Folder::finish`]; dropped before that, it leaves nothing. What is computed before the first file may be
+/// interrupted, and nothing is left either.
 #[derive(Debug)]
 pub struct Folder {
     place: PathBuf,
     overwrite: bool,
-    files: tempfile::TempDir,
+    files: OnceCell<tempfile::TempDir>,
 }
 
 impl Folder {
-    /// An empty folder that is to stand at `place`; there may be one already if `overwrite`.
+    /// An empty folder that is to stand at `place`, where it can be made; there may be one already if `overwrite`.
     pub fn new(place: &Path, overwrite: bool) -> Result<Self, RecordError> {
         // The working directory itself may be moved aside: no relative path survives that.
         let place = std::path::absolute(place).map_err(|cause| RecordError::Io {
@@ -120,11 +122,24 @@ impl Folder {
             cause,
         })?;
         check_free(&place, overwrite)?;
+        drop(staging(&place)?);
         Ok(Self {
-            files: staging(&place)?,
+            files: OnceCell::new(),
             place,
             overwrite,
         })
+    }
+
+    /// Where the files stand.
+    fn files(&self) -> Result<&Path, RecordError> {
+        if self.files.get().is_none() {
+            // It is not set twice: nobody else has this cell.
+            let _ = self.files.set(staging(&self.place)?);
+        }
+        Ok(self
+            .files
+            .get()
+            .map_or(&self.place, tempfile::TempDir::path))
     }
 
     /// Adds a file of text.
@@ -134,7 +149,7 @@ impl Folder {
 
     /// Adds a file.
     pub fn bytes(&self, name: &str, bytes: &[u8]) -> Result<(), RecordError> {
-        fs::write(self.files.path().join(name), bytes).map_err(|cause| self.refused(cause))
+        fs::write(self.files()?.join(name), bytes).map_err(|cause| self.refused(cause))
     }
 
     /// Adds a JSON file.
@@ -156,7 +171,7 @@ impl Folder {
     /// Puts the folder in its place, whole.
     pub fn finish(self) -> Result<(), RecordError> {
         check_free(&self.place, self.overwrite)?;
-        let (place, files) = (&self.place, self.files.path());
+        let (place, files) = (&self.place, self.files()?);
         if place.exists() {
             // Keep the old folder until the new one stands in its place.
             let old = staging(place)?;
@@ -174,7 +189,9 @@ impl Folder {
             fs::rename(files, place).map_err(|cause| self.refused(cause))?;
         }
         // The folder has moved: there is nothing left to clean up.
-        let _ = self.files.keep();
+        if let Some(files) = self.files.into_inner() {
+            let _ = files.keep();
+        }
         Ok(())
     }
 
@@ -183,11 +200,10 @@ impl Folder {
         name: &'static str,
         write: impl FnOnce(&mut csv::Writer<fs::File>) -> Result<(), csv::Error>,
     ) -> Result<(), RecordError> {
-        let written =
-            csv::Writer::from_path(self.files.path().join(name)).and_then(|mut writer| {
-                write(&mut writer)?;
-                Ok(writer.flush()?)
-            });
+        let written = csv::Writer::from_path(self.files()?.join(name)).and_then(|mut writer| {
+            write(&mut writer)?;
+            Ok(writer.flush()?)
+        });
         written.map_err(|error| match error.into_kind() {
             csv::ErrorKind::Io(cause) => self.refused(cause),
             other => RecordError::Encode {
@@ -219,7 +235,7 @@ fn check_free(place: &Path, overwrite: bool) -> Result<(), RecordError> {
 }
 
 /// Files that a result folder may hold, beside those of [`vtk`].
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     "drive.toml",
     "summary.json",
     "history.csv",
@@ -230,6 +246,7 @@ const FILES: [&str; 10] = [
     "report.html",
     "map.csv",
     "map.parquet",
+    "campbell.csv",
 ];
 
 /// Whether `place` is a folder (no link to one) with nothing in it but results.

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use super::{Coordinate, NodeVector, PlanarStructure, StructureError};
+use super::{Coordinate, NodeVector, PlanarStructure, StructureError, start};
 use crate::constraint::{
     BodyAttachment, Constant, ConstraintForm, ConstraintSet, LinearEquation, TurnedComponent,
 };
@@ -14,12 +14,10 @@ use crate::loads::{Loads, NodeMoment, RotatingFrame};
 use crate::mesh::Mesh;
 use crate::quadrature::Rule;
 use crate::statics::{Equilibrium, LoadStepError, LoadSteps, Loaded, equilibrium, linear_response};
-use crate::system::{Mechanics, RigidCoordinate, State, System};
+use crate::system::{Mechanics, RigidCoordinate, System};
 
 /// Largest distance of ends, relative to an element's length, that still meet.
 pub(super) const CLOSED: f64 = 1.0e-9;
-/// Largest violation of constraints by a start [m, m/s].
-const CONSISTENT: f64 = 1.0e-9;
 /// Correction at which statics ends, relative to the length of the chain; the error left is its square.
 pub(super) const TOLERANCE: f64 = 1.0e-9;
 /// Iterations of a load step.
@@ -144,27 +142,7 @@ impl<E: LineElement> PlanarStructure<E> {
         q: &[f64],
         v: &[f64],
     ) -> Result<Motion, StructureError> {
-        let mut motion = Motion::zero(system.structure().size());
-        for (target, source) in [(&mut motion.q, q), (&mut motion.v, v)] {
-            let count = source.len().min(target.len());
-            target[..count].copy_from_slice(&source[..count]);
-        }
-        if let Some(constraints) = system.constraints() {
-            let state = State {
-                time: 0.0,
-                q: &motion.q,
-                v: &motion.v,
-            };
-            for ((amount, name), unit) in constraints.violation(state).into_iter().zip(["m", "m/s"])
-            {
-                if amount > CONSISTENT || amount.is_nan() {
-                    let name = name.to_owned();
-                    return Err(StructureError::Start { name, amount, unit });
-                }
-            }
-        }
-        system.prescribe(0.0, &mut motion.q, &mut motion.v, &mut motion.a);
-        Ok(motion)
+        start::consistent(system, q, v)
     }
 
     /// The static equilibrium under all loads, with prescribed motions as at time zero.
@@ -198,7 +176,7 @@ impl<E: LineElement> PlanarStructure<E> {
     }
 
     /// Undeformed length of the chain [m].
-    pub(super) fn length(&self) -> f64 {
+    pub fn length(&self) -> f64 {
         self.elements.iter().map(LineElement::length).sum()
     }
 

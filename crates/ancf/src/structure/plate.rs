@@ -22,8 +22,9 @@
 use faer::{Mat, Side};
 
 use super::modes::natural_modes;
-use super::{Mode, NodeVector, StructureError};
+use super::{Mode, NodeVector, StructureError, start};
 use crate::constraint::Constant;
+use crate::dynamics::Motion;
 use crate::element::{Element, SurfaceElement, ThinPlate};
 use crate::loads::SurfaceLoads;
 use crate::mesh::Mesh;
@@ -103,6 +104,15 @@ pub struct PlateStructure {
 impl Loaded for System<ThinPlate, SurfaceLoads> {
     fn set_load_factor(&mut self, factor: f64) {
         self.law.factor = factor;
+    }
+}
+
+impl System<ThinPlate, SurfaceLoads> {
+    /// Kinetic and strain energy and the potential of dead forces [J] together; pressure and moments, which follow the
+    /// surface, are left out.
+    pub fn energy(&self, q: &[f64], v: &[f64]) -> f64 {
+        let dead: f64 = (self.law.dead.iter().zip(q)).map(|(f, x)| -f * x).sum();
+        self.kinetic_energy(v) + self.strain_energy(q) + self.law.factor * dead
     }
 }
 
@@ -308,6 +318,16 @@ impl PlateStructure {
             system = system.following(index, Box::new(Constant(self.drawn[index])));
         }
         Ok(system)
+    }
+
+    /// The start of a motion with the given coordinates and velocities; held ones must be as drawn and at rest.
+    pub fn start(
+        &self,
+        system: &System<ThinPlate, SurfaceLoads>,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Motion, StructureError> {
+        start::consistent(system, q, v)
     }
 
     /// The static equilibrium under all loads.

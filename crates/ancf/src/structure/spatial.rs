@@ -30,7 +30,7 @@ use std::sync::Arc;
 
 use super::build::{HALVINGS, MAX_ITERATIONS, TOLERANCE, finite};
 use super::modes::natural_modes;
-use super::{Mode, StructureError};
+use super::{Mode, StructureError, start};
 use crate::constraint::{Constant, ConstraintForm, ConstraintSet, LinearEquation};
 use crate::dynamics;
 use crate::element::LineElement;
@@ -304,6 +304,17 @@ impl<E: LineElement> SpatialStructure<E> {
         motion
     }
 
+    /// The start of a motion with the given coordinates and velocities, with or without places for multipliers; they
+    /// must keep the constraints.
+    pub fn start(
+        &self,
+        system: &System<E, Loads>,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<dynamics::Motion, StructureError> {
+        start::consistent(system, q, v)
+    }
+
     /// The static equilibrium under all loads, with prescribed motions as at time zero.
     pub fn equilibrium(&self) -> Result<Equilibrium, StructureError> {
         let mut system = self.build()?;
@@ -343,13 +354,14 @@ impl<E: LineElement> SpatialStructure<E> {
         self.elements.len() + usize::from(!self.closed)
     }
 
-    /// The drawn coordinates.
-    fn drawn(&self) -> &[f64] {
+    /// The drawn coordinates, without multipliers.
+    pub fn drawn(&self) -> &[f64] {
         let count = (self.nodes() * E::NODE_DOF).min(self.coordinates.len());
         &self.coordinates[..count]
     }
 
-    fn length(&self) -> f64 {
+    /// Undeformed length of the chain [m].
+    pub fn length(&self) -> f64 {
         self.elements.iter().map(LineElement::length).sum()
     }
 

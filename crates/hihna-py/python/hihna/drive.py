@@ -8,7 +8,7 @@ import os
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ._native import NativeDrive
+from ._native import InputError, NativeDrive
 from .results import Results
 
 FrictionLaw = Callable[[float, float], "float | tuple[float, float, float]"]
@@ -22,8 +22,15 @@ def _plain(value: Any) -> Any:
     raise TypeError(f"{value!r} is neither number, text, list nor dictionary")
 
 
+def _encoded(value: Any) -> str:
+    try:
+        return json.dumps(value, default=_plain, allow_nan=False)
+    except ValueError as error:
+        raise InputError(f"a field of a drive is no finite number: {error}") from error
+
+
 def _changes(changes: Mapping[str, Any]) -> list[tuple[str, str]]:
-    return [(path.replace("__", "."), json.dumps(value, default=_plain)) for path, value in changes.items()]
+    return [(path.replace("__", "."), _encoded(value)) for path, value in changes.items()]
 
 
 def _functions(what: str, given: Mapping[str, Any] | None) -> list[tuple[str, Any]]:
@@ -52,7 +59,7 @@ class Drive:
     @classmethod
     def from_dict(cls, fields: Mapping[str, Any]) -> Drive:
         """Make a drive of a dictionary with the fields of a drive file. Raises `InputError`."""
-        return cls(NativeDrive.from_json(json.dumps(dict(fields), default=_plain)))
+        return cls(NativeDrive.from_json(_encoded(dict(fields))))
 
     @classmethod
     def built_in(cls) -> Drive:

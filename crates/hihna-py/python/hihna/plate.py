@@ -12,42 +12,17 @@ A plate is drawn in the plane of x and y from the origin; node `(i, j)` is the i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy
 
 from ._native import NativePlate
 from .material import Material
+from .structure import Equilibrium, Structure, coordinates_of
 
 #: Edges by name: x = 0, x at its largest, y = 0, y at its largest.
 EDGES = ("start", "end", "right", "left")
 
 
-@dataclass(frozen=True)
-class PlateEquilibrium:
-    """A static equilibrium of a plate."""
-
-    #: Places of the nodes [m], `(nodes along, nodes across, 3)`.
-    positions: numpy.ndarray
-    #: Newton iterations of all load steps.
-    iterations: int
-    #: All coordinates.
-    coordinates: numpy.ndarray
-
-
-@dataclass(frozen=True)
-class PlateModes:
-    """Natural motions of a plate by rising frequency."""
-
-    #: Circular frequencies [rad/s].
-    frequencies: numpy.ndarray
-    #: Rates of growth [1/s], positive where the equilibrium is unstable.
-    growths: numpy.ndarray
-    #: How the nodes move, real parts, `(modes, nodes along, nodes across, 3)`.
-    shapes: numpy.ndarray
-
-
-class Plate:
+class Plate(Structure):
     """A plate of `length` along x, `width` along y and `thickness` [m], of so many `elements` along and across.
 
     `bending` is its stiffness: ``"standard"`` E h³/(12 (1 - nu²)), ``"printed"`` E h³/12 as in Kerkkänen (2006, 4.17), or
@@ -64,14 +39,15 @@ class Plate:
         *,
         bending: str = "standard",
     ) -> None:
-        self._nodes = (elements[0] + 1, elements[1] + 1)
+        self._last_and_one = (elements[0] + 1, elements[1] + 1)
         constants = [material.youngs_modulus, material.poisson_ratio, material.density]
         self._native = NativePlate([length, width, thickness], list(elements), constants, bending)
+        super().__init__(self._native, self._last_and_one, 3, 3)
 
     @property
     def last(self) -> tuple[int, int]:
         """The last node."""
-        return (self._nodes[0] - 1, self._nodes[1] - 1)
+        return (self._last_and_one[0] - 1, self._last_and_one[1] - 1)
 
     def clamp(self, *edges: str) -> Plate:
         """Hold edges, all without a name, and the direction of the surface there."""
@@ -88,9 +64,16 @@ class Plate:
         self._native.bending_only()
         return self
 
-    def force(self, node: tuple[int, int], force: tuple[float, float, float]) -> Plate:
-        """Add a dead force [N] on a node."""
-        self._native.force(list(node), list(force))
+    def hold(self, node: tuple[int, int], vector: str, axis: int) -> Plate:
+        """Hold a component of a vector of a node as drawn: ``"position"``, slope ``"along"`` x, slope ``"across"``, y."""
+        self._native.hold(list(node), vector, axis)
+        return self
+
+    def force(
+        self, node: tuple[int, int], force: tuple[float, float, float], *, vector: str = "position"
+    ) -> Plate:
+        """Add a dead force [N] on a node, or a generalised one [N m] on a slope, ``"along"`` or ``"across"``."""
+        self._native.force(list(node), vector, list(force))
         return self
 
     def pressure(self, pressure: float) -> Plate:
@@ -108,13 +91,7 @@ class Plate:
         self._native.gravity(list(field))
         return self
 
-    def equilibrium(self) -> PlateEquilibrium:
-        """The static equilibrium under all loads."""
-        found = self._native.equilibrium()
-        positions = found["positions"].reshape(*self._nodes, 3)
-        return PlateEquilibrium(positions, found["iterations"], found["coordinates"])
-
-    def modes(self, about: PlateEquilibrium | None = None) -> PlateModes:
-        """Natural motions about an equilibrium, or about the drawn shape."""
-        found = self._native.modes(None if about is None else about.coordinates.tolist())
-        return PlateModes(found["frequencies"], found["growths"], found["shapes"].reshape(-1, *self._nodes, 3))
+    def membrane_forces(self, state: Equilibrium | numpy.ndarray) -> numpy.ndarray:
+        """Forces per undeformed width [N/m] in the middle of every element, `(along, across, 3)` for xx, yy and xy, of the
+        second Piola-Kirchhoff stress; in an equilibrium or with a row of a film's `coordinates`."""
+        return self._native.membrane_forces(coordinates_of(state)).reshape(*self.last, 3)

@@ -82,15 +82,20 @@ class Results:
         """The moving belt, columns as of `profile`; empty without `run.frame_interval`."""
         return self._native.frames()
 
+    @property
+    def edges(self) -> dict[str, Any]:
+        """Both edges of a belt in space beside `frames`: the columns of `edges.csv` as arrays; empty in the plane."""
+        return self._native.edges()
+
     def to_pandas(self, table: str = "history") -> pandas.DataFrame:
-        """`history` (by time), `profile` or `frames` as a data frame. Needs pandas."""
+        """`history` (by time), `profile`, `frames` or `edges` as a data frame. Needs pandas."""
         import pandas
 
         if table == "history":
             return pandas.DataFrame(self._table, columns=self.columns).set_index("time")
-        if table in ("profile", "frames"):
+        if table in ("profile", "frames", "edges"):
             return pandas.DataFrame(getattr(self, table))
-        raise ValueError(f"there is no table {table!r}: the tables are history, profile and frames")
+        raise ValueError(f"there is no table {table!r}: the tables are history, profile, frames and edges")
 
     def save(
         self, folder: str | os.PathLike[str], *, overwrite: bool = False, vtk: bool = False, report: bool = False

@@ -2,7 +2,7 @@
 
 use plotly::color::NamedColor;
 use plotly::common::{
-    ColorBar, ColorScale, ColorScalePalette, Line, Marker, MarkerSymbol, Mode, Position,
+    ColorBar, ColorScale, ColorScaleElement, Line, Marker, MarkerSymbol, Mode, Position,
 };
 use plotly::contour::Contours;
 use plotly::layout::HoverMode;
@@ -49,6 +49,7 @@ pub fn charts(map: &Map) -> Vec<Chart> {
         found.then(|| Chart {
             title: format!("{} [{}]", quantity.title, quantity.unit),
             plot,
+            ranges: String::new(),
         })
     };
     quantities.filter_map(chart).collect()
@@ -151,7 +152,7 @@ fn contours(map: &Map, [x, y]: [&Axis; 2], quantity: &Quantity, values: &[f64]) 
     let mut plot = Plot::new();
     plot.add_trace(
         Contour::new(x.values.clone(), y.values.clone(), z)
-            .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
+            .color_scale(bright())
             .contours(Contours::new().show_labels(true))
             .color_bar(ColorBar::new().title(quantity.unit).thickness(12))
             .name(&escaped(&quantity.title))
@@ -164,6 +165,20 @@ fn contours(map: &Map, [x, y]: [&Axis; 2], quantity: &Quantity, values: &[f64]) 
         layout(&escaped(&x.title()), &escaped(&y.title()), marked).hover_mode(HoverMode::Closest),
     );
     plot
+}
+
+/// The brighter part of Viridis (Smith and van der Walt): black labels of the contours stay legible on all of it.
+fn bright() -> ColorScale {
+    let shades = [
+        "#2a788e", "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725",
+    ];
+    let last = (shades.len() - 1) as f64;
+    let places = shades.iter().enumerate();
+    ColorScale::Vector(
+        places
+            .map(|(i, shade)| ColorScaleElement(i as f64 / last, (*shade).to_owned()))
+            .collect(),
+    )
 }
 
 /// Marks the points that do not run; tells whether there are any.

@@ -1,19 +1,31 @@
-//! The page of a map.
+//! The page of a map of steady running, or of a Campbell diagram.
 
 use askama::Template;
+use plotly::Plot;
 
 use super::Map;
 use super::charts::charts;
 use crate::ReportError;
 use crate::page::{SCRIPT, plotly_script, titled};
 
+/// What such a page shows.
+pub struct MapPage {
+    pub title: String,
+    /// What kind of page it is.
+    pub kind: &'static str,
+    /// What to know of the charts.
+    pub text: &'static str,
+    /// What varies, what stands, and how many points have which answer.
+    pub facts: Vec<[String; 2]>,
+    /// Titles of the charts.
+    pub charts: Vec<String>,
+    pub plots: Vec<Plot>,
+}
+
 #[derive(Template)]
 #[template(path = "map.html")]
-struct Page<'a> {
-    title: &'a str,
-    /// What varies, what stands, and how many points have which answer.
-    facts: Vec<[String; 2]>,
-    charts: Vec<String>,
+struct Whole {
+    page: MapPage,
     style: &'static str,
     script: &'static str,
     plotly: &'static str,
@@ -21,28 +33,38 @@ struct Page<'a> {
 }
 
 /// The page of `map`, of one or two fields.
-pub fn render(map: &Map) -> Result<String, ReportError> {
+pub fn map_page(map: &Map) -> Result<String, ReportError> {
     if !(1..=2).contains(&map.axes.len()) {
         return Err(ReportError::Axes {
             count: map.axes.len(),
         });
     }
-    let (charts, plots): (Vec<_>, Vec<_>) = charts(map)
+    let (charts, plots) = charts(map)
         .into_iter()
         .map(|chart| (chart.title, chart.plot))
         .unzip();
-    let page = Page {
-        title: titled(&map.drive),
+    render(MapPage {
+        title: titled(&map.drive).to_owned(),
+        kind: "Map of steady running",
+        text: "Where the load is more than 1 of what friction carries the drive slips as a whole; such points are marked with their load, and have no other results.",
         facts: facts(map),
         charts,
+        plots,
+    })
+}
+
+/// The page as HTML.
+pub fn render(page: MapPage) -> Result<String, ReportError> {
+    let whole = Whole {
         style: include_str!("../../templates/report.css"),
         script: SCRIPT,
         plotly: plotly_script(),
         // A closing tag within the data would end it.
-        data: serde_json::to_string(&serde_json::json!({ "plots": plots }))?
+        data: serde_json::to_string(&serde_json::json!({ "plots": page.plots }))?
             .replace('<', "\\u003c"),
+        page,
     };
-    Ok(page.render()?)
+    Ok(whole.render()?)
 }
 
 fn facts(map: &Map) -> Vec<[String; 2]> {
