@@ -102,6 +102,12 @@ pub enum StructureError {
         /// The last node.
         last: usize,
     },
+    /// A component that vectors in space do not have.
+    #[error("there is no axis {axis}: the components of a vector in space are 0, 1 and 2")]
+    NoAxis {
+        /// The number given.
+        axis: usize,
+    },
     /// A node that the plate does not have.
     #[error("there is no node {node:?}: the nodes are [0, 0] to {last:?}, with axes 0 to 2")]
     NoPlateNode {

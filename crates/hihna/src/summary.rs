@@ -265,6 +265,7 @@ impl Summary {
         let steady = report(drive, outcome, from, to);
         let mut warnings: Vec<_> = outcome.warnings.iter().map(ToString::to_string).collect();
         warnings.extend(warnings::of_running(&steady));
+        warnings.extend(warnings::of_crowns(drive, &steady));
         warnings.extend(outcome.settling.as_ref().and_then(warnings::of_settling));
         Self {
             title: drive.title.clone(),

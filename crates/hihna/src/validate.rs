@@ -23,6 +23,7 @@ mod pendulum;
 mod planar_beams;
 mod plate_belt;
 mod plates;
+mod princeton_beam;
 mod ring_down;
 mod selection;
 mod spatial_beams;
@@ -106,6 +107,7 @@ const COMPUTATIONS: &[(&str, Compute)] = &[
         "chapter-4-beams/bending-and-torsion",
         spatial_beams::bending_and_torsion,
     ),
+    ("chapter-4-beams/princeton-beam", princeton_beam::tips),
     ("chapter-4-v-belt/sink", v_belt::sink),
     (
         "chapter-4-v-belt/transmissible-torque",

@@ -185,31 +185,45 @@ fn vector<S: Scalar>(e: &[S; DOF], first: usize) -> [S; 3] {
 /// Both fibres at both nodes: `[fibre][node]`.
 #[inline(always)]
 fn nodes<S: Scalar>(e: &[S; DOF]) -> [[Node<S>; 2]; 2] {
-    [0, 1].map(
-        #[inline(always)]
-        |k| {
-            [0, NODE].map(
-                #[inline(always)]
-                |node| Node::new(vector(e, node + 3), vector(e, node + ACROSS + 3 * k)),
-            )
-        },
-    )
+    [
+        [node_of(e, 0, 0), node_of(e, 0, 1)],
+        [node_of(e, 1, 0), node_of(e, 1, 1)],
+    ]
+}
+
+#[inline(always)]
+fn node_of<S: Scalar>(e: &[S; DOF], k: usize, node: usize) -> Node<S> {
+    Node::new(vector(e, NODE * node + 3), direction(e, k, node))
+}
+
+/// r_y (`k` 0) or r_z (1) of a node.
+#[inline(always)]
+fn direction<S: Scalar>(e: &[S; DOF], k: usize, node: usize) -> [S; 3] {
+    vector(e, NODE * node + ACROSS + 3 * k)
 }
 
 #[inline(always)]
 fn nodal<S: Scalar>(e: &[S; DOF], nodes: &[[Node<S>; 2]; 2]) -> Nodal<S> {
-    let direction = |node: usize, k: usize| vector(e, NODE * node + ACROSS + 3 * k);
     Nodal {
         lines: lines::lines(e),
-        directions: [0, 1].map(|k| [direction(0, k), direction(1, k)]),
-        shears: [0, 1].map(|k| [nodes[k][0].shear, nodes[k][1].shear]),
+        directions: [
+            [direction(e, 0, 0), direction(e, 0, 1)],
+            [direction(e, 1, 0), direction(e, 1, 1)],
+        ],
+        shears: [
+            [nodes[0][0].shear, nodes[0][1].shear],
+            [nodes[1][0].shear, nodes[1][1].shear],
+        ],
     }
 }
 
 /// `r_y.r_z` at both nodes.
 #[inline(always)]
 fn angles<S: Scalar>(e: &[S; DOF]) -> [S; 2] {
-    [0, NODE].map(|node| dot(vector(e, node + ACROSS), vector(e, node + ACROSS + 3)))
+    [
+        dot(direction(e, 0, 0), direction(e, 1, 0)),
+        dot(direction(e, 0, 1), direction(e, 1, 1)),
+    ]
 }
 
 /// `∫ f² dx / (l / 6) / 2` of a linear f by its nodal values.
@@ -439,7 +453,7 @@ impl BeltBeam3 {
         for k in 0..2 {
             let stretch = half_square_gradient([nodes[k][0].stretch, nodes[k][1].stretch]);
             let [first, second] = [DIRECTIONS[k], DIRECTIONS[k] + 3];
-            let others = [0, NODE].map(|node| vector(e, node + ACROSS + 3 * (1 - k)));
+            let others = [direction(e, 1 - k, 0), direction(e, 1 - k, 1)];
             for node in 0..2 {
                 let at = [first, second][node];
                 let u = nodes[k][node].u;
@@ -465,8 +479,8 @@ impl BeltBeam3 {
         for row_node in 0..2 {
             for column_node in 0..2 {
                 let factor = if row_node == column_node { 2.0 } else { 1.0 };
-                let of_row = vector(e, NODE * row_node + ACROSS + 3);
-                let of_column = vector(e, NODE * column_node + ACROSS);
+                let of_row = direction(e, 1, row_node);
+                let of_column = direction(e, 0, column_node);
                 for i in 0..3 {
                     for j in 0..3 {
                         sum[y + 3 * row_node + i][z + 3 * column_node + j] +=

@@ -253,6 +253,9 @@ impl<E: LineElement> SpatialStructure<E> {
             let last = self.last();
             return Err(StructureError::NoNode { node, last });
         }
+        if axis > 2 {
+            return Err(StructureError::NoAxis { axis });
+        }
         let across = E::NODE_VECTORS - 2;
         let vector = match vector {
             NodeDirection::Position => 0,
@@ -262,7 +265,7 @@ impl<E: LineElement> SpatialStructure<E> {
             NodeDirection::Width => across + 1,
         };
         let node = node % self.nodes();
-        Ok(node * E::NODE_DOF + 3 * vector + axis.min(2))
+        Ok(node * E::NODE_DOF + 3 * vector + axis)
     }
 
     /// The mechanical system, under the whole load.

@@ -1,6 +1,7 @@
 //! What the means of a run tell about its drive, in words.
 
 use super::Report;
+use crate::drive::Drive;
 use crate::simulate::Settling;
 
 /// Part of the wrap that touches where a belt is said to have lifted off, and of the contact that slips where
@@ -34,6 +35,22 @@ pub(super) fn of_running(steady: &Report) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// Crowned pulleys over whose edges the belt hangs: there contact goes on as if they had no end.
+pub(super) fn of_crowns(drive: &Drive, steady: &Report) -> Vec<String> {
+    let crowned = drive.pulley.iter().zip(&steady.pulley.0);
+    let beyond = crowned.filter_map(|(pulley, (name, report))| {
+        let offset = report.lateral.as_ref()?.belt_offset.abs();
+        let beyond = 0.5 * drive.belt.width + offset - 0.5 * pulley.crown?.width;
+        (beyond > 1.0e-9 * drive.belt.width).then(|| {
+            format!(
+                "the belt reaches {:.1} mm beyond the edge of pulley `{name}`, where it meets its crown's parabola as if the pulley went on",
+                1.0e3 * beyond
+            )
+        })
+    });
+    beyond.collect()
 }
 
 /// A run that reached its end before its means settled.

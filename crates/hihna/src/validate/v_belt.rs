@@ -90,7 +90,19 @@ struct Overload {
     changes: &'static [&'static str],
 }
 
-const OVERLOADS: [Overload; 3] = [
+const OVERLOADS: [Overload; 4] = [
+    // A fifth of the tension turns the belt around the pulleys.
+    Overload {
+        name: "36 degrees, mu 0.15, 25 m/s",
+        coefficient: 0.15,
+        load: "-50",
+        changes: &[
+            "belt.tension=300",
+            "belt.elements=40",
+            "pulley.driven.inertia=0.005",
+            "pulley.driver.speed.to=250",
+        ],
+    },
     Overload {
         name: "36 degrees, mu 0.15",
         coefficient: 0.15,
@@ -138,12 +150,17 @@ fn onset(overload: &Overload) -> Result<Quantities, CaseError> {
         .flat_map(|line| [line, "\n"])
         .collect();
     let run = TimeRun::new(&unloaded, &changes)?;
-    // The slip arc has grown over the whole wrap.
+    // The slip arc has grown over the whole wrap, and stays there.
     let (times, slips) = (run.column("time")?, run.column("driver.slip_angle")?);
     let wrap = run.outcome.layout.arcs[0].sweep;
-    let start = (times.iter().zip(&slips))
-        .find(|(time, slip)| **time > 0.12 && **slip > wrap)
-        .map(|(time, _)| *time)
+    let lasting = |first: usize| {
+        let until = times[first] + PASSAGE;
+        let mut rows = times[first..].iter().zip(&slips[first..]);
+        until < times[times.len() - 1] && rows.all(|(time, slip)| *time > until || *slip > wrap)
+    };
+    let start = (0..times.len())
+        .find(|first| times[*first] > 0.12 && lasting(*first))
+        .map(|first| times[first])
         .ok_or(CaseError::DoesNotRun)?;
     let window = [start, start + PASSAGE];
     let slack = run.pressing_tension("driver-driven", window)?;

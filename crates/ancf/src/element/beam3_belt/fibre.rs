@@ -65,11 +65,11 @@ impl<S: Scalar> Fibre<S> {
     #[inline(always)]
     pub fn new(c: Vector<S>, d: Vector<S>, tau: Number<S>) -> Self {
         let per_f = dot(c, c).sqrt().recip();
-        let t = c.map(|value| value * per_f);
+        let t = [c[0] * per_f, c[1] * per_f, c[2] * per_f];
         let h = dot(t, d);
         let u = [d[0] - h * t[0], d[1] - h * t[1], d[2] - h * t[2]];
         let per_g = dot(u, u).sqrt().recip();
-        let n = u.map(|value| value * per_g);
+        let n = [u[0] * per_g, u[1] * per_g, u[2] * per_g];
         let m = [
             t[1] * n[2] - t[2] * n[1],
             t[2] * n[0] - t[0] * n[2],
@@ -96,14 +96,16 @@ impl<S: Scalar> Fibre<S> {
     /// Derivative of delta by d: m / g.
     #[inline(always)]
     pub fn turn(&self) -> Vector<S> {
-        self.m.map(|value| value * self.per_g)
+        let (m, per_g) = (self.m, self.per_g);
+        [m[0] * per_g, m[1] * per_g, m[2] * per_g]
     }
 
     /// ds/dc.
     #[inline(always)]
     pub fn by_centre(&self) -> [Vector<S>; 3] {
         let Self { t, n, m, tau, .. } = *self;
-        let along = n.map(|value| value * self.per_f);
+        let per_f = self.per_f;
+        let along = [n[0] * per_f, n[1] * per_f, n[2] * per_f];
         let across = (tau - self.k) * self.per_f;
         let mut by_centre = [[Series::zero(); 3]; 3];
         for i in 0..3 {

@@ -56,24 +56,28 @@ impl<S: Scalar> Section<S> {
         let (c, curve) = point.shape.apply(&nodal.lines);
         let centre = Series::vector(c, curve);
         let mut vectors = [c; 5];
-        let fibres = [0, 1].map(
-            #[inline(always)]
-            |k| {
-                let mut direction = [Series::zero(); 3];
-                for i in 0..3 {
-                    let [first, second] = nodal.directions[k];
-                    direction[i] = point.interpolate(first[i], second[i]);
-                }
-                let [first, second] = nodal.shears[k];
-                Fibre::new(centre, direction, point.interpolate(first, second))
-            },
-        );
+        let fibres = [
+            Self::fibre(point, nodal, centre, 0),
+            Self::fibre(point, nodal, centre, 1),
+        ];
         for k in 0..2 {
             let s = fibres[k].vector();
-            vectors[FIBRES[k]] = s.map(|value| value.value);
-            vectors[FIBRE_SLOPES[k]] = s.map(|value| value.slope);
+            vectors[FIBRES[k]] = [s[0].value, s[1].value, s[2].value];
+            vectors[FIBRE_SLOPES[k]] = [s[0].slope, s[1].slope, s[2].slope];
         }
         Self { fibres, vectors }
+    }
+
+    #[inline(always)]
+    fn fibre(point: &Point, nodal: &Nodal<S>, centre: [Series<S>; 3], k: usize) -> Fibre<S> {
+        let [first, second] = nodal.directions[k];
+        let direction = [
+            point.interpolate(first[0], second[0]),
+            point.interpolate(first[1], second[1]),
+            point.interpolate(first[2], second[2]),
+        ];
+        let [first, second] = nodal.shears[k];
+        Fibre::new(centre, direction, point.interpolate(first, second))
     }
 
     /// Weights of s and s' in a series: see [`Series`].

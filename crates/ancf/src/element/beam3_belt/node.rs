@@ -19,8 +19,8 @@ impl<S: Scalar> Node<S> {
         let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
         let per_slope = (c[0] * c[0] + c[1] * c[1] + c[2] * c[2]).sqrt().recip();
         let per_length = length.recip();
-        let t = c.map(|value| value * per_slope);
-        let u = d.map(|value| value * per_length);
+        let t = [c[0] * per_slope, c[1] * per_slope, c[2] * per_slope];
+        let u = [d[0] * per_length, d[1] * per_length, d[2] * per_length];
         Self {
             t,
             u,
