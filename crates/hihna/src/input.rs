@@ -23,7 +23,7 @@ mod shape;
 mod spatial;
 
 pub use document::{Place, Source};
-pub use number_field::{NumberField, NumberRefused, UnknownNumber};
+pub use number_field::{NumberField, NumberRefused, UnknownNumber, broken_rule};
 pub use overrides::Override;
 pub(crate) use problem::nearest;
 pub use problem::{FieldPath, InputError, InputErrors, Problem, Segment};
