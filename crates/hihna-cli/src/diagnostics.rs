@@ -95,7 +95,7 @@ impl Failure {
             | Self::Folder(_)
             | Self::UnknownCase(_)
             | Self::Report(ReportError::Read(_) | ReportError::Axes { .. })
-            | Self::Running(RunningError::Assembly(_))
+            | Self::Running(RunningError::Assembly(_) | RunningError::Field(_))
             | Self::Run(RunError::Assembly(_)) => ExitCode::from(2),
             _ => ExitCode::from(1),
         }

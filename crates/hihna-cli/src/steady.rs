@@ -57,9 +57,10 @@ pub struct Arguments {
     #[arg(long, value_name = "K", default_value_t = 0, hide_default_value = true, value_parser = clap::value_parser!(u16).range(..=100))]
     modes: u16,
 
-    /// With `--model fe`: solve the drive at every combination of values of two or more fields, such as
-    /// `pulley.driven.torque=-1:-20:20`. May be given several times
-    #[arg(long, value_name = "KEY=FROM:TO:COUNT", conflicts_with = "sensitivity")]
+    /// With `--model fe`: solve the drive at every combination of values of one or more fields, such as
+    /// `pulley.driven.torque=-1:-20:20 pulley.driver.speed=6:120:20`; `torque` and `speed` are those of the
+    /// one driven pulley and the one driver. The drive file goes before it
+    #[arg(long, value_name = "KEY=FROM:TO:COUNT", num_args = 1.., conflicts_with = "sensitivity")]
     map: Vec<String>,
 
     /// Folder for drive.toml, summary.json and, of a drive that runs, profile.csv [default: no files]

@@ -505,7 +505,7 @@ fn finite_elements() {
         "--set",
         "contact.friction.coefficient=0.3",
     ];
-    let fe = ["--model", "fe", "--set", "belt.elements=60"];
+    let fe = ["--model", "fe", "--set", "belt.elements=120"];
     let found = object(
         folder.path(),
         &[&fe[..], &load, &["--out", "result"]].concat(),
@@ -522,7 +522,7 @@ fn finite_elements() {
     );
     let (table, _) = told(folder.path(), &[&fe[..], &load].concat(), 0);
     for part in [
-        "60 graded elements",
+        "120 graded elements",
         "Power residual",
         "Safety against gross slip",
     ] {
@@ -660,4 +660,46 @@ fn campbell_diagrams_and_quiet_answers() {
         message.contains("plays no part in steady running"),
         "{message}"
     );
+}
+
+/// Values that a drive cannot have and maps that are too large are told before anything is solved; points without an answer, and
+/// drives without any, with the reason.
+#[test]
+fn what_maps_refuse() {
+    let folder = TempDir::new().unwrap();
+    let fe = ["--model", "fe", "--set", "belt.elements=30", "--map"];
+    let cases: [(&[&str], &str); 6] = [
+        (&["torque=0:1:1000000000000"], "more than 1000000"),
+        (&["torque=-1:-2:1001", "speed=6:12:1001"], "1002001 points"),
+        (&["belt.width=-0.01:0.01:3"], "must be positive"),
+        (&["belt.poisson_ratio=0.3:0.7:3"], "must be less than 0.5"),
+        (
+            &["torque=-1:-2:2", "pulley.driven.torque=-3:-4:2"],
+            "two ranges",
+        ),
+        (&["belt.width"], "no `=`"),
+    ];
+    for (map, part) in cases {
+        let (_, message) = told(folder.path(), &[&fe[..], map].concat(), 2);
+        assert!(message.contains(part), "{map:?}: {message}");
+    }
+    let overlapping = ["torque=-1:-2:2", "pulley.driven.radius=0.08125:0.4:2"];
+    let (csv, warning) = told(folder.path(), &[&fe[..], &overlapping].concat(), 0);
+    let answers: Vec<_> = (csv.lines().skip(1))
+        .map(|row| row.split(',').next().unwrap())
+        .collect();
+    assert_eq!(answers, ["running", "none", "running", "none"]);
+    for part in ["2 of 4 points", "pulley.driven.radius = 0.4 m", "overlap"] {
+        assert!(warning.contains(part), "{part}: {warning}");
+    }
+    let spatial = ["speed=6:12:2", "--set", "belt.element=belt-beam-3d"];
+    let (_, message) = told(folder.path(), &[&fe[..], &spatial].concat(), 2);
+    assert!(message.contains("planar elements only"), "{message}");
+    let example = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../examples/three_pulleys.toml"
+    );
+    let two = [&[example], &fe[..], &["torque=-1:-2:2"]].concat();
+    let (_, message) = told(folder.path(), &two, 2);
+    assert!(message.contains("`pulley.idler.torque`"), "{message}");
 }

@@ -23,7 +23,7 @@ mod rules;
 mod shape;
 mod spatial;
 
-pub use number_field::{NumberField, NumberRefused, UnknownNumber};
+pub use number_field::{NumberField, NumberRefused, UnknownNumber, broken_rule};
 pub use overrides::Override;
 pub use place::{Place, Source};
 pub(crate) use problem::nearest;

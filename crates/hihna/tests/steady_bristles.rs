@@ -2,7 +2,7 @@
 
 use ancf::element::BeltBeam2;
 use hihna::drive::Drive;
-use hihna::steady::running::{Answer, Running, RunningBelt};
+use hihna::steady::running::{Answer, Most, Running, RunningBelt};
 
 const BASE: &str = include_str!("../../../examples/two_pulley.toml");
 const RADIUS: f64 = 0.08125;
@@ -117,7 +117,10 @@ fn capacity() {
     let factor = |stiffness| {
         let mut belt = belt(&[LOAD, &bristles(0.3, stiffness)]);
         match belt.solve() {
-            Ok(Answer::Running(running)) => belt.capacity(&running).expect("found").factor,
+            Ok(Answer::Running(running)) => match belt.capacity(&running) {
+                Some(Most::Known(capacity)) => capacity.factor,
+                other => panic!("{other:?}"),
+            },
             other => panic!("{other:?}"),
         }
     };

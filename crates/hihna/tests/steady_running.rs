@@ -6,8 +6,9 @@ use hihna::input::NumberField;
 use hihna::steady::drive_string::DriveString;
 use hihna::steady::running::campbell::campbell;
 use hihna::steady::running::map::{Axis, map};
+use hihna::steady::running::summary::RunningSummary;
 use hihna::steady::running::{
-    Answer, Found, Outcome, Running, RunningBelt, force_and_moment, solve,
+    Answer, Found, Most, Outcome, Running, RunningBelt, force_and_moment, solve,
 };
 use hihna::steady::string::{self, Closure, Model};
 
@@ -205,10 +206,8 @@ fn powers_balance_in_the_limit() {
     }
 }
 
-/// 30 graded elements find what 80 equal ones do, as 480 graded ones say: tensions and, where the belt creeps all along the arcs, the speed
-/// loss. In the drive of low friction they miss the speed loss by a tenth: in the middle of the arcs they turn by 0.79 rad, where a
-/// cubic misses the circle by `R theta⁴/384` = 80 micrometres, more than the 33 by which the belt sinks in, so that it touches in patches. 40
-/// of them miss it by 25 and find it.
+/// 30 graded elements find what 80 equal ones do, as 480 graded ones say: tensions and speed loss, with half as much again; below 0.1 %, to
+/// which speed losses are compared with the string's, neither matters.
 #[test]
 fn grading() {
     let low = [LOAD, LOW_FRICTION];
@@ -217,25 +216,20 @@ fn grading() {
         let (n, mesh) = (format!("belt.elements={n}"), format!("steady.mesh={mesh}"));
         let found = running(text, &[&[n.as_str(), &mesh], changes].concat());
         let loss = 1.0 - found.pulleys[1].speed / found.pulleys[0].speed;
-        [found.spans[0].tension, loss]
+        [found.spans[0].tension, found.spans[1].tension, loss]
     };
-    for (text, changes, few) in [(BASE, &low[..], [30, 40]), (LOADED, &loaded, [30, 30])] {
+    for (text, changes) in [(BASE, &[LOAD][..]), (BASE, &low), (LOADED, &loaded)] {
         let exact = found(text, changes, 480, "graded");
         let many = found(text, changes, 80, "uniform");
-        for what in 0..2 {
-            let error = |value: f64| (value / exact[what] - 1.0).abs();
-            let graded = error(found(text, changes, few[what], "graded")[what]);
-            // Below 0.05 % neither matters.
+        let few = found(text, changes, 30, "graded");
+        for what in 0..3 {
+            let [few, many] = [few, many].map(|found| (found[what] / exact[what] - 1.0).abs());
             assert!(
-                graded < (1.5 * error(many[what])).max(5.0e-4),
-                "{changes:?}, {what}: {graded:e} {:e}",
-                error(many[what])
+                few < (1.5 * many).max(1.0e-3),
+                "{changes:?}, {what}: {few:e} {many:e}"
             );
         }
     }
-    let loss = |n| found(BASE, &low, n, "graded")[1];
-    let (coarse, exact) = (loss(30), loss(480));
-    assert!(coarse / exact > 1.05, "{coarse:e} {exact:e}");
 }
 
 /// In the limit the extensible string: thin belt, stiff pulleys, steep creep, to 0.1 % of the speed and 0.5 % of the tensions. Bending
@@ -280,9 +274,10 @@ fn string_limit() {
 #[test]
 fn gross_slip() {
     let near = |torque: &str| outcome(BASE, &["belt.elements=60", torque, LOW_FRICTION]);
-    let below = near("pulley.driven.torque=-1.9")
-        .capacity
-        .expect("a capacity");
+    let below = near("pulley.driven.torque=-1.9").capacity;
+    let Some(Most::Known(below)) = below else {
+        panic!("{below:?}");
+    };
     let carried = -1.9 * below.factor;
     let Answer::GrossSlip(slip) = near("pulley.driven.torque=-3").answer else {
         panic!("it runs");
@@ -304,6 +299,93 @@ fn gross_slip() {
     let ratio = (found.spans[1].tension - centrifugal) / (found.spans[0].tension - centrifugal);
     let euler = (0.3 * std::f64::consts::PI).exp();
     assert_near("tension ratio", ratio, euler, 0.03 * euler);
+}
+
+/// The capacity does not depend on the state in which the search for it begins. At 60 rad/s the load goes on rising with the slip when all of
+/// the driver slides: the belt slows down and presses more. That is gross slip.
+#[test]
+fn capacity_from_anywhere() {
+    let at = |torque: &str| {
+        let torque = format!("pulley.driven.torque={torque}");
+        outcome(
+            BASE,
+            &["belt.elements=60", "pulley.driver.speed=60", &torque],
+        )
+    };
+    let most = |torque: &str| {
+        let capacity = at(torque).capacity;
+        let Some(Most::Known(capacity)) = capacity else {
+            panic!("{torque}: {capacity:?}");
+        };
+        capacity.torques[1]
+    };
+    let usual = most("-1");
+    for torque in ["-0.2", "-3", "-5"] {
+        // Steps that double the slip pass the beginning of gross slip by less than 1e-2.
+        assert_near(torque, most(torque), usual, 1.0e-2 * usual.abs());
+    }
+    assert!(matches!(at("-5.6").answer, Answer::GrossSlip(_)));
+}
+
+/// The search goes on until more slip carries no more, however much slip a gentle law or a slow belt needs for that: the capacity is what
+/// friction carries, not how fast it comes about. Where it ends before, no capacity is told.
+#[test]
+fn capacity_needs_enough_slip() {
+    let most = |changes: &[&str]| {
+        let changes = [&["belt.elements=60", LOAD], changes].concat();
+        outcome(BASE, &changes).capacity.expect("torques act")
+    };
+    let known = |changes: &[&str]| most(changes).known().expect("a capacity").factor;
+    let usual = known(&[]);
+    for changes in ["contact.friction.slope=1e3", "pulley.driver.speed=0.01"] {
+        // Twice the slip carries 1e-4 more at the end of the search.
+        assert_near(changes, known(&[changes]), usual, 1.0e-3 * usual);
+    }
+    // Steep laws, stiff belts and grips beyond those of belts are hard to follow: what is told holds all the same.
+    for hard in [
+        "contact.friction.slope=1e8",
+        "belt.youngs_modulus=2e11",
+        "contact.friction.coefficient=10",
+    ] {
+        let runs = |factor: f64| {
+            let torque = format!("pulley.driven.torque={}", -factor);
+            let found = solve(&drive(BASE, &["belt.elements=60", hard, &torque]));
+            matches!(found.map(|found| found.answer), Ok(Answer::Running(_)))
+        };
+        match most(&[hard]) {
+            Most::Known(capacity) => {
+                assert!(runs(0.99 * capacity.factor), "{hard}: {capacity:?}");
+                assert!(!runs(1.02 * capacity.factor), "{hard}: {capacity:?}");
+            }
+            Most::AtLeast(factor) => assert!(runs(0.99 * factor), "{hard}: {factor}"),
+        }
+    }
+}
+
+/// A load that a slow belt cannot hold drags its pulley backwards, and loses more than all of the speed; a torque that drives puts power in,
+/// and the driver takes it out.
+#[test]
+fn signs_of_losses_and_powers() {
+    let summary = |changes: &[&str]| {
+        let changes = [&["belt.elements=60"], changes].concat();
+        let found = RunningSummary::new(&drive(BASE, &changes), &outcome(BASE, &changes));
+        found.steady.expect("it runs")
+    };
+    let dragged = summary(&[LOAD, "pulley.driver.speed=0.01"]);
+    let driven = &dragged.pulley.0[1].1.report;
+    assert!(driven.speed < 0.0 && dragged.speed_loss > 1.0);
+    assert_near(
+        "loss",
+        dragged.speed_loss,
+        1.0 - driven.speed / 0.01,
+        1.0e-12,
+    );
+    assert_eq!(dragged.efficiency, None);
+    let pushed = summary(&["pulley.driven.torque=1"]);
+    let [driver, driven] = [0, 1].map(|p| pushed.pulley.0[p].1.report.power);
+    assert_near("in", pushed.power_in, -driven, 1.0e-9);
+    assert_near("out", pushed.power_out, driver, 1.0e-9);
+    assert!(pushed.efficiency.expect("power flows") < 1.0);
 }
 
 /// A creep without limit of friction loses `T / (v_s R L)` on each pulley beyond the strain of the belt; the other laws
@@ -465,6 +547,27 @@ fn modes_of_the_spans() {
     }
 }
 
+/// A torque that drives and rises with the speed, by S = 100 N m s/rad, faster than the creep of the belt can hold it: the pulley of inertia I
+/// runs away at S/I, less `k/S` and `k/D` = 8 1/s of 1000 for the belt as a spring and a damper in series. That is no swing, and it is told.
+#[test]
+fn growth_without_swing() {
+    let law = "pulley.driven.load={law=\"table\", speed=[11.8, 12.2], torque=[-20, 20]}";
+    let drive = drive(BASE, &["belt.elements=60", law]);
+    let mut belt = RunningBelt::<BeltBeam2>::new(&drive).expect("a drive");
+    let Answer::Running(running) = belt.solve().expect("solved") else {
+        panic!("it does not run");
+    };
+    let modes = belt.modes(&running, 5).expect("modes");
+    assert_eq!(modes.len(), 5);
+    let growing: Vec<_> = modes.iter().filter(|mode| mode.growth > 0.0).collect();
+    let [runs_away] = growing[..] else {
+        panic!("{modes:?}");
+    };
+    assert_eq!(runs_away.frequency.to_bits(), 0);
+    assert!(runs_away.pulley_share > 0.9);
+    assert_near("growth", runs_away.growth, 1000.0, 10.0);
+}
+
 /// A Campbell diagram over the speed: every mode keeps its kind, the torsional one and those of the two spans, whose frequency falls
 /// with the speed as that of the travelling string does, to 0.5 % as above.
 #[test]
@@ -516,7 +619,8 @@ fn capacity_along_a_map_of_speeds() {
     for (row, speed) in found.rows.iter().zip(["12", "60"]) {
         let speed = format!("pulley.driver.speed={speed}");
         let alone = outcome(BASE, &[&changes[..], &[&speed]].concat());
-        let alone = alone.capacity.expect("a capacity").factor;
+        let alone = alone.capacity.as_ref().and_then(Most::known);
+        let alone = alone.expect("a capacity").factor;
         // The search ends where the load rises by less than 1e-4 while the slip doubles; the phase of the mesh differs.
         assert_near("capacity", row.values[margin], alone, 5.0e-3 * alone);
     }

@@ -78,7 +78,7 @@ pub fn steady(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> 
         }
         if let Some(modes) = &modes {
             text.push('\n');
-            text.push_str(&modes::in_words(modes));
+            text.push_str(&modes::in_words(modes, arguments.modes.into()));
         }
         standard_output::print(&text)?;
     }

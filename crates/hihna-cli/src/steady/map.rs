@@ -5,13 +5,13 @@ use std::fmt::Write;
 use hihna::drive::Drive;
 use hihna::input;
 use hihna::record::Folder;
-use hihna::steady::running::map::{Axis, Map, map};
+use hihna::steady::running::map::{Axis, Map, Row, map};
 use hihna::summary::Named;
 use serde::Serialize;
 
 use super::Arguments;
-use super::elements::find_fields;
-use crate::diagnostics::Failure;
+use super::elements::{failure, find_fields};
+use crate::diagnostics::{Failure, print_warning};
 use crate::loudness::Loudness;
 use crate::standard_output;
 
@@ -70,6 +70,26 @@ pub fn steady(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> 
         .map_err(Failure::Folder)?;
     let found = map(&file.drive, &axes);
     let answers = answers(&found);
+    let mut without = found.rows.iter().filter(|row| row.error.is_some());
+    let count = without.clone().count();
+    if let Some(Row {
+        values,
+        error: Some(error),
+        ..
+    }) = without.next()
+    {
+        if count == found.rows.len() {
+            return Err(failure(error.clone(), &file));
+        }
+        let place: Vec<_> = (axes.iter().zip(values))
+            .map(|(axis, value)| format!("{} = {value} {}", axis.field.key, axis.field.unit))
+            .collect();
+        print_warning(&format!(
+            "{count} of {} points have no answer; the first, {}: {error}",
+            found.rows.len(),
+            place.join(", ").trim_end(),
+        ));
+    }
     let told = |folder, rows| Told {
         folder,
         title: &file.drive.title,
@@ -149,10 +169,15 @@ pub(super) fn axes(drive: &Drive, given: &[String]) -> Result<Vec<Axis>, Failure
         })
         .collect::<Result<Vec<_>, Failure>>()?;
     if points > MOST_POINTS {
-        return Err(Failure::Argument {
-            message: format!("the map has {points} points, more than {MOST_POINTS}"),
-            help: "ask for fewer values".into(),
-        });
+        return Err(too_many(points));
+    }
+    for (i, axis) in axes.iter().enumerate() {
+        if axes[..i].iter().any(|other| other.field == axis.field) {
+            return Err(Failure::Argument {
+                message: format!("`{}` has two ranges", axis.field.key),
+                help: "give every field once".into(),
+            });
+        }
     }
     Ok(axes)
 }
@@ -182,12 +207,52 @@ fn axis(drive: &Drive, text: &str) -> Result<Axis, Failure> {
     if count == 0 {
         return Err(wrong("COUNT must be at least 1"));
     }
+    if count > MOST_POINTS {
+        return Err(too_many(count));
+    }
     let last = count.max(2) - 1;
     let values = (0..count).map(|i| from + (to - from) * i as f64 / last as f64);
-    let mut fields = find_fields(drive, &[key.trim().to_owned()])?;
+    let mut fields = find_fields(drive, &[full_key(drive, key.trim())?])?;
     let field = fields.pop().ok_or_else(|| wrong("the field is missing"))?;
-    Ok(Axis {
-        field,
-        values: values.collect(),
-    })
+    let values: Vec<f64> = values.collect();
+    // Bounds are intervals: what the ends may be, all between may.
+    for end in [values.first(), values.last()].into_iter().flatten() {
+        field
+            .check(*end)
+            .map_err(|error| wrong(&error.to_string()))?;
+    }
+    Ok(Axis { field, values })
+}
+
+fn too_many(points: usize) -> Failure {
+    Failure::Argument {
+        message: format!("the map has {points} points, more than {MOST_POINTS}"),
+        help: "ask for fewer values".into(),
+    }
+}
+
+/// `speed` is that of the driver, `torque` that of the pulley that is none, where there is but one.
+fn full_key(drive: &Drive, key: &str) -> Result<String, Failure> {
+    let driver = match key {
+        "speed" => true,
+        "torque" => false,
+        _ => return Ok(key.to_owned()),
+    };
+    let names: Vec<&str> = (drive.pulley.iter())
+        .filter(|pulley| pulley.is_driver() == driver)
+        .map(|pulley| pulley.name.as_str())
+        .collect();
+    match names[..] {
+        [name] => Ok(format!("pulley.{name}.{key}")),
+        _ => Err(Failure::Argument {
+            message: format!("`{key}` could be that of {} pulleys", names.len()),
+            help: format!(
+                "name one: {}",
+                (names.iter())
+                    .map(|name| format!("`pulley.{name}.{key}`"))
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            ),
+        }),
+    }
 }

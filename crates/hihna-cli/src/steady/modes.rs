@@ -1,6 +1,7 @@
 //! `hihna steady --model fe --modes`: modes about the running state.
 
 use std::f64::consts::TAU;
+use std::fmt::Write;
 
 use hihna::steady::running::modes::Mode;
 use hihna::summary::Named;
@@ -42,8 +43,8 @@ pub fn summary(modes: &[Mode], names: &[&str]) -> Vec<ModeSummary> {
     modes.iter().map(of).collect()
 }
 
-/// A table, and a word on modes that grow.
-pub fn in_words(modes: &[ModeSummary]) -> String {
+/// A table, and a word on modes that grow and on those of `wanted` that were not found.
+pub fn in_words(modes: &[ModeSummary], wanted: usize) -> String {
     let header = ["mode", "frequency", "growth", "damping", "pulleys' energy"];
     let mut table = columns(&header, &[0, 1, 2, 3, 4]);
     for (i, mode) in modes.iter().enumerate() {
@@ -55,13 +56,34 @@ pub fn in_words(modes: &[ModeSummary]) -> String {
             percent(mode.pulley_share),
         ]);
     }
-    let grows = modes.iter().filter(|mode| mode.growth > 0.0).count();
-    let stability = if grows == 0 {
-        "None of these modes grows.".to_owned()
-    } else {
-        format!(
-            "{grows} of these modes grow in the linear picture: partial slip makes weak growth that changes with the mesh, so confirm it with more `belt.elements`."
-        )
+    let mut text = format!("{}\n\n", table.trim_fmt());
+    if modes.len() < wanted {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{} of {wanted} modes were found: more `belt.elements` have more.",
+            modes.len()
+        );
+    }
+    let growing = modes.iter().filter(|mode| mode.growth > 0.0);
+    let fastest = |modes: &[&ModeSummary]| {
+        let growth = modes
+            .iter()
+            .fold(0.0, |most: f64, mode| most.max(mode.growth));
+        plain(growth, "1/s")
     };
-    format!("{}\n\n{stability}\n", table.trim_fmt())
+    let (swing, leave): (Vec<_>, Vec<_>) = growing.partition(|mode| mode.frequency > 0.0);
+    text.push_str(&match (swing.as_slice(), leave.as_slice()) {
+        ([], []) => "None of these modes grows.\n".to_owned(),
+        (swing, []) => format!(
+            "{} of these modes grow, the fastest by {}. In this linear picture partial slip makes weak growth that changes with the mesh, so confirm it with more `belt.elements`.\n",
+            swing.len(),
+            fastest(swing)
+        ),
+        (_, leave) => format!(
+            "A motion without swing grows by {}, as where a torque that drives rises with the speed: if more `belt.elements` confirm it, the drive does not stay in this state.\n",
+            fastest(leave)
+        ),
+    });
+    text
 }

@@ -3,8 +3,8 @@
 use serde_json::Value;
 use thiserror::Error;
 
-use super::nearest;
-use super::shape::Shape;
+use super::shape::{Bounds, Shape};
+use super::{nearest, rules};
 use crate::drive::Drive;
 use crate::profile::{Profile, Varying};
 
@@ -35,7 +35,7 @@ pub struct UnknownNumber {
 pub struct NumberRefused {
     key: String,
     value: f64,
-    cause: serde_json::Error,
+    cause: String,
 }
 
 impl NumberField {
@@ -83,11 +83,46 @@ impl NumberField {
         if let Some(end) = end {
             *end = Value::from(value);
         }
-        serde_json::from_value(tree).map_err(|cause| NumberRefused {
+        serde_json::from_value(tree).map_err(|cause| self.refused(value, cause.to_string()))
+    }
+
+    /// Whether the field may have `value`, whatever the rest of the drive.
+    pub fn check(&self, value: f64) -> Result<(), NumberRefused> {
+        let bounds = quantity_at(Shape::of_drive(), &self.path).map(|(_, bounds)| bounds);
+        match bounds.and_then(|bounds| bounds.broken_by(value, self.unit)) {
+            Some(broken) => Err(self.refused(value, format!("it {broken}"))),
+            None => Ok(()),
+        }
+    }
+
+    fn refused(&self, value: f64, cause: String) -> NumberRefused {
+        NumberRefused {
             key: self.key.clone(),
             value,
             cause,
-        })
+        }
+    }
+}
+
+/// What breaks a rule of drive files that involves several fields, if anything does: what [`NumberField::with`] leaves open.
+pub fn broken_rule(drive: &Drive) -> Option<String> {
+    let problems = rules::problems(drive);
+    let first = problems.into_iter().next();
+    first
+        .or_else(|| rules::mounting(drive))
+        .map(|problem| problem.message)
+}
+
+/// The quantity at the end of `path`.
+fn quantity_at<'a>(shape: &'a Shape, path: &[String]) -> Option<(&'static str, &'a Bounds)> {
+    let Some((name, rest)) = path.split_first() else {
+        return quantity(shape);
+    };
+    match shape {
+        Shape::List(item, _) => quantity_at(item, rest),
+        Shape::Either(shapes) => shapes.iter().find_map(|shape| quantity_at(shape, path)),
+        _ => (shape.fields().filter(|field| field.name == *name))
+            .find_map(|field| quantity_at(&field.shape, rest)),
     }
 }
 
@@ -123,7 +158,7 @@ fn walk(
     path: &mut Vec<String>,
     found: &mut Vec<NumberField>,
 ) {
-    if let Some(unit) = quantity(shape)
+    if let Some((unit, _)) = quantity(shape)
         && last_value(value).is_some()
     {
         found.push(NumberField {
@@ -161,10 +196,10 @@ fn walk(
     }
 }
 
-/// The unit of a quantity, or of a profile of one.
-fn quantity(shape: &Shape) -> Option<&'static str> {
+/// Unit and bounds of a quantity, or of a profile of one.
+fn quantity(shape: &Shape) -> Option<(&'static str, &Bounds)> {
     match shape {
-        Shape::Quantity(dimension, _) => Some(dimension.unit),
+        Shape::Quantity(dimension, bounds) => Some((dimension.unit, bounds)),
         Shape::Either(shapes) => shapes.iter().find_map(quantity),
         _ => None,
     }

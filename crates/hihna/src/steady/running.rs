@@ -180,6 +180,26 @@ pub enum Found {
     GivenSlip,
 }
 
+/// What is known of the most that a drive carries.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Most {
+    /// More slip carries no more.
+    Known(Capacity),
+    /// Up to this factor on all external torques it runs [-]; the solutions beyond were not found, though more slip still carried
+    /// more.
+    AtLeast(f64),
+}
+
+impl Most {
+    /// The most itself, if it is known.
+    pub fn known(&self) -> Option<&Capacity> {
+        match self {
+            Self::Known(capacity) => Some(capacity),
+            Self::AtLeast(_) => None,
+        }
+    }
+}
+
 /// The most that a drive carries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capacity {
@@ -314,12 +334,12 @@ impl<E: BeltElementType> RunningBelt<E> {
         }
     }
 
-    /// The most that the drive carries, from the state in which it runs; nothing where no torque acts or, with friction that
-    /// remembers, where the search for it fails.
-    pub fn capacity(&mut self, running: &Running) -> Option<Capacity> {
+    /// The most that the drive carries, from the state in which it runs; nothing where no torque acts.
+    pub fn capacity(&mut self, running: &Running) -> Option<Most> {
         match self.by_slip(&running.state, None)? {
-            Way::Exhausted(capacity) => Some(capacity),
-            Way::Reached(_) | Way::Lost(_) => None,
+            Way::Exhausted(capacity) => Some(Most::Known(capacity)),
+            Way::Lost(factor) => Some(Most::AtLeast(factor)),
+            Way::Reached(_) => None,
         }
     }
 
@@ -390,7 +410,7 @@ pub struct Outcome {
     /// What the drive does.
     pub answer: Answer,
     /// The most that it carries, if it runs and torques act.
-    pub capacity: Option<Capacity>,
+    pub capacity: Option<Most>,
     /// The belt's path.
     pub layout: Layout,
     /// How tight the belt is on its path.

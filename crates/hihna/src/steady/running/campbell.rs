@@ -11,7 +11,7 @@
 //! that share no energy. The most similar pairs belong together. A mode that resembles none before by half ends there; where two
 //! modes of equal frequency mix, as those of two equal spans do, only their plane is followed.
 
-use super::map::Axis;
+use super::map::{Axis, at_values};
 use super::modes::Mode;
 use super::{Answer, RunningBelt, RunningError};
 use crate::assemble::BeltElementType;
@@ -73,7 +73,7 @@ fn of_elements<E: BeltElementType>(
     // Of every mode that is followed, how it looked last.
     let mut known: Vec<Velocities> = Vec::new();
     for &value in &axis.values {
-        let there = (axis.field.with(drive, value)).map_err(|e| RunningError::refused(&e))?;
+        let there = at_values(drive, std::slice::from_ref(axis), &[value])?;
         let mut point = CampbellPoint {
             value,
             answer: "none",
@@ -102,7 +102,7 @@ fn of_elements<E: BeltElementType>(
             Ok((_, Answer::GrossSlip(_))) => point.answer = "gross-slip",
             Ok((_, Answer::Slack(_))) => point.answer = "slack",
             // One value without an answer does not spoil the others; a drive that may not be asked at all does.
-            Err(RunningError::NotFound { .. }) => {}
+            Err(RunningError::NotFound { .. } | RunningError::Lost { .. }) => {}
             Err(error) => return Err(error),
         }
         points.push(point);

@@ -14,6 +14,7 @@ use super::prepare::set_laws;
 use super::{Capacity, RunningBelt};
 use crate::assemble::BeltElementType;
 use crate::friction::{FrictionLaw, Law};
+use crate::observe::PulleyState;
 
 /// Newton iterations of one solution.
 pub(super) const MAX_ITERATIONS: usize = 30;
@@ -29,11 +30,16 @@ const UNLIMITED: f64 = 1.0e6;
 const SMALLEST_PART: f64 = 1.0e-3;
 /// First step of the slip, relative to the speed of the belt.
 const FIRST_SLIP: f64 = 1.0e-4;
-/// Smallest step of it, and the slip at which the search ends.
-const SMALLEST_SLIP: f64 = 1.0e-8;
-const LARGEST_SLIP: f64 = 0.5;
-/// Gain of the load factor, while the slip doubles, that counts as none.
+/// Smallest step of it.
+const SMALLEST_SLIP: f64 = 1.0e-7;
+/// Relative gain of the load factor by twice the slip that counts as none.
 const GAIN: f64 = 1.0e-4;
+/// Where a pulley slides as a whole the load still changes as the belt does, which it slows down: by up to this.
+const GAIN_OF_SLIDING: f64 = 1.0e-2;
+/// Part of an arc that slides where all of it does: at its ends, where the belt crosses the pulley's surface, slip may have another sign.
+const SLIDING: f64 = 0.98;
+/// Gain below which nothing is missed where the solutions are lost.
+const UNKNOWN_GAIN: f64 = 1.0e-3;
 
 /// Where a continuation in the slip has ended.
 #[derive(Debug)]
@@ -135,12 +141,12 @@ impl<E: BeltElementType> RunningBelt<E> {
         let travel: f64 = (self.equations.slip_weights.iter().enumerate())
             .map(|(p, weight)| (weight * self.guess[self.equations.chain() + p]).abs())
             .fold(0.0, f64::max);
-        let start = self.equations.slip(&z);
-        let mut slip = start;
+        let mut slip = self.equations.slip(&z);
+        let none = self.equations.slip(&self.guess);
         let mut step = FIRST_SLIP * travel;
         let mut best = z.clone();
         let mut flat = 0;
-        let mut lost = false;
+        let mut gain = f64::INFINITY;
         let mut trial = z.clone();
         // The solution before and how much slip lies between: the next begins on the line through both.
         let mut before: Option<(Vec<f64>, f64)> = None;
@@ -158,14 +164,11 @@ impl<E: BeltElementType> RunningBelt<E> {
             if found.is_err() {
                 step *= 0.25;
                 if step < SMALLEST_SLIP * travel {
-                    lost = true;
                     break;
                 }
                 continue;
             }
-            if let Some(wanted) = wanted
-                && trial[load] >= wanted
-            {
+            if let Some(wanted) = wanted.filter(|wanted| trial[load] >= *wanted) {
                 if let Some(reached) = self.at_load(&z, &trial, wanted) {
                     return Way::Reached(reached);
                 }
@@ -175,28 +178,27 @@ impl<E: BeltElementType> RunningBelt<E> {
                 }
                 continue;
             }
-            flat = if trial[load] - z[load] < GAIN * trial[load].abs() {
-                flat + 1
-            } else {
-                0
-            };
+            // Steps after a failure are short: what counts is the gain to come of twice the slip.
+            slip += step;
+            gain = (trial[load] - z[load]) / step * (slip - none) / trial[load].abs();
+            flat = if gain < GAIN { flat + 1 } else { 0 };
             before = Some((z.clone(), step));
             z.copy_from_slice(&trial);
             if z[load] > best[load] {
                 best.copy_from_slice(&z);
             }
-            slip += step;
-            if flat >= 2 || slip - start > LARGEST_SLIP * travel {
-                break;
+            if flat >= 2 || (gain < GAIN_OF_SLIDING && self.slides(&z)) {
+                return Way::Exhausted(self.capacity_at(&best));
             }
             step *= 2.0;
         }
-        // Without memory solutions are lost where the last point of an arc begins to slide, with the load all but exhausted. Bristles
-        // let go point by point long before.
-        if lost && self.equations.contact.bristles.is_some() {
-            return Way::Lost(best[load]);
+        // Solutions are lost where the last points of an arc begin to slide, with the load all but exhausted. Anywhere else nothing is
+        // known of those beyond.
+        if gain < UNKNOWN_GAIN || self.slides(&z) {
+            Way::Exhausted(self.capacity_at(&best))
+        } else {
+            Way::Lost(best[load])
         }
-        Way::Exhausted(self.capacity_at(&best))
     }
 
     /// The state of the load factor `wanted` between `low` and `high`.
@@ -213,18 +215,21 @@ impl<E: BeltElementType> RunningBelt<E> {
         Some(z)
     }
 
+    /// Whether friction is exhausted all along a pulley that transmits a torque in the state `z`: gross slip.
+    fn slides(&mut self, z: &[f64]) -> bool {
+        let found = self.observe(z);
+        let transmits = (self.equations.prescribed.iter())
+            .zip(&self.equations.slip_weights)
+            .map(|(speed, weight)| speed.is_some() || *weight != 0.0);
+        (found.pulleys.iter().zip(transmits))
+            .any(|(p, transmits)| transmits && sliding_part(p) > SLIDING)
+    }
+
     /// The state `z` read as the most that the drive carries.
     fn capacity_at(&mut self, z: &[f64]) -> Capacity {
         let found = self.observe(z);
-        let share = |p: &crate::observe::PulleyState| {
-            if p.contact_angle > 0.0 {
-                p.slip_angle / p.contact_angle
-            } else {
-                1.0
-            }
-        };
         let pulley = (0..found.pulleys.len()).fold(0, |most, p| {
-            if share(&found.pulleys[p]) > share(&found.pulleys[most]) {
+            if sliding_part(&found.pulleys[p]) > sliding_part(&found.pulleys[most]) {
                 p
             } else {
                 most
@@ -240,5 +245,14 @@ impl<E: BeltElementType> RunningBelt<E> {
                 .iter()
                 .fold(f64::INFINITY, |t, s| t.min(s.tension)),
         }
+    }
+}
+
+/// Part of a pulley's contact where friction is exhausted; all of none.
+fn sliding_part(pulley: &PulleyState) -> f64 {
+    if pulley.contact_angle > 0.0 {
+        pulley.slip_angle / pulley.contact_angle
+    } else {
+        1.0
     }
 }

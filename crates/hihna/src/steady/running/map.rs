@@ -8,10 +8,10 @@
 use rayon::prelude::*;
 
 use super::summary::{RunningSummary, Steady};
-use super::{Answer, Capacity, Outcome, RunningBelt, RunningError};
+use super::{Answer, Capacity, Most, Outcome, RunningBelt, RunningError};
 use crate::assemble::BeltElementType;
 use crate::drive::{Drive, Pulley};
-use crate::input::NumberField;
+use crate::input::{NumberField, broken_rule};
 use crate::steady::drive_string::final_value;
 
 /// A number of the drive and the values that it takes.
@@ -39,6 +39,8 @@ pub struct Row {
     pub answer: &'static str,
     /// By column; not a number where there is none.
     pub values: Vec<f64>,
+    /// Why there is no answer.
+    pub error: Option<RunningError>,
 }
 
 /// Solves `drive` at every combination of `axes`.
@@ -73,6 +75,7 @@ fn of_elements<E: BeltElementType>(drive: &Drive, axes: &[Axis]) -> Map {
         Row {
             answer: "none",
             values: Vec::new(),
+            error: None,
         };
         points
     ];
@@ -96,6 +99,26 @@ fn values_at(axes: &[Axis], point: usize) -> Vec<f64> {
     values
 }
 
+/// The drive with these values, if it is one.
+pub(super) fn at_values(
+    drive: &Drive,
+    axes: &[Axis],
+    values: &[f64],
+) -> Result<Drive, RunningError> {
+    let mut there = drive.clone();
+    for (axis, value) in axes.iter().zip(values) {
+        let field = &axis.field;
+        (field.check(*value))
+            .and_then(|()| field.with(&there, *value))
+            .map(|changed| there = changed)
+            .map_err(|error| RunningError::refused(&error))?;
+    }
+    match broken_rule(&there) {
+        Some(broken) => Err(RunningError::Field(broken)),
+        None => Ok(there),
+    }
+}
+
 /// What the points of a line hand on.
 struct Neighbour<E> {
     drive: Drive,
@@ -114,21 +137,21 @@ fn solve_line<E: BeltElementType>(
     let mut known: Option<(Drive, Capacity)> = None;
     line.iter()
         .map(|&point| {
-            let values = values_at(axes, point);
-            let there = (axes.iter().zip(&values))
-                .try_fold(drive.clone(), |drive, (axis, value)| {
-                    axis.field.with(&drive, *value)
-                });
             let mut row = Row {
                 answer: "none",
-                values: values.clone(),
+                values: values_at(axes, point),
+                error: None,
             };
-            if let Ok(there) = there
-                && let Ok(outcome) = solve_point(&there, &mut neighbour, &mut known)
-            {
-                let summary = RunningSummary::new(&there, &outcome);
-                row.answer = summary.answer;
-                row.values.extend(results(&summary));
+            let found = at_values(drive, axes, &row.values).and_then(|there| {
+                let outcome = solve_point(&there, &mut neighbour, &mut known)?;
+                Ok(RunningSummary::new(&there, &outcome))
+            });
+            match found {
+                Ok(summary) => {
+                    row.answer = summary.answer;
+                    row.values.extend(results(&summary));
+                }
+                Err(error) => row.error = Some(error),
             }
             row.values.resize(width, f64::NAN);
             (point, row)
@@ -164,12 +187,12 @@ fn solve_point<E: BeltElementType>(
         (_, None) => belt.solve()?,
     };
     let capacity = match &answer {
-        Answer::Running(running) => scaled.or_else(|| belt.capacity(running)),
+        Answer::Running(running) => scaled.map(Most::Known).or_else(|| belt.capacity(running)),
         _ => None,
     };
     let most = match &answer {
         Answer::GrossSlip(slip) => Some(&slip.capacity),
-        _ => capacity.as_ref(),
+        _ => capacity.as_ref().and_then(Most::known),
     };
     *known = most.map(|c| (drive.clone(), c.clone()));
     let outcome = Outcome {

@@ -3,17 +3,20 @@
 //! Graded meshes have the node density
 //!
 //! ```text
-//! 1 + 3 sum exp(-((s - s_t) / w)²)      w = 0.37 R
+//! 1 (on arcs 2) + 3 sum exp(-((s - s_t) / w)²)      w = 0.37 R
 //! ```
 //!
 //! along the path, summed over the points `s_t` where the belt runs on and off a pulley of radius R: forces
-//! change there within a fraction of the radius, so that 30 graded elements do what 80 equal ones do.
+//! change there within a fraction of the radius, and on arcs cubics must follow a circle, so that 30 graded elements do what 80 equal
+//! ones do.
 
 use crate::drive::{Drive, SteadyMesh};
 use crate::layout::Layout;
 
 /// Density at a tangent point beyond that of the spans.
 const PEAK: f64 = 3.0;
+/// Density on arcs beyond that of spans.
+const BENT: f64 = 1.0;
 /// Width of a peak, in radii.
 const WIDTH: f64 = 0.37;
 /// Samples of the density per element.
@@ -38,7 +41,8 @@ fn graded(count: usize, first_node: f64, layout: &Layout) -> Vec<f64> {
                 (-(away / (WIDTH * arc.radius)).powi(2)).exp()
             })
         });
-        1.0 + PEAK * peaks.sum::<f64>()
+        let bent = (layout.arcs.iter()).any(|arc| (s - arc.start).rem_euclid(path) < arc.length);
+        1.0 + if bent { BENT } else { 0.0 } + PEAK * peaks.sum::<f64>()
     };
     let samples = count * SAMPLES;
     let step = path / samples as f64;

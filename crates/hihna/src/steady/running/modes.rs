@@ -9,7 +9,8 @@
 //!
 //! The exponents s nearest a small shift `sigma` are found by Arnoldi's method on `(A - sigma B)^-1 B`; a step costs one
 //! solution with the cyclic matrix `K + sigma D + sigma² M`, `D = c G + C`, and all factors are kept. The shift of the belt
-//! along itself is neutral (`s = 0`, `u = R'`) and left out. Driving speeds and torques are held.
+//! along itself is neutral (`s = 0`, `u = R'`) and left out: of the motions without swing that resemble it the one of the least exponent.
+//! Driving speeds and torques are held.
 //!
 //! Dry friction follows the motion: with partial slip some modes grow weakly in this linear picture, at rates that change
 //! with the mesh. A growth counts only where a finer mesh confirms it.
@@ -26,17 +27,19 @@ use crate::assemble::BeltElementType;
 const SHIFT: f64 = 3.0;
 /// Residual of an eigenpair, relative to it, that counts as converged.
 const TOLERANCE: f64 = 1.0e-9;
+/// Images below this part of the largest are round-off.
+const ROUND_OFF: f64 = 1.0e-12;
 /// Largest space searched.
 const MOST_DIRECTIONS: usize = 400;
-/// Exponents below this part of the belt's revolutions per time are the neutral shift.
-const NEUTRAL: f64 = 1.0e-3;
+/// Least similarity of the neutral shift to a unit motion of all nodes along the path.
+const ALONG: f64 = 0.9;
 /// Frequencies below this part of the growth are motions without swing.
 const APERIODIC: f64 = 1.0e-9;
 
-/// A mode `exp((growth + i frequency) t)` of the running drive.
+/// A mode `exp((growth + i frequency) t)` of the running drive: one that swings, or one that grows without swing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
-    /// Circular frequency [rad/s], positive.
+    /// Circular frequency [rad/s]; zero for a growth without swing.
     pub frequency: f64,
     /// Rate of growth [1/s]: negative for a mode that decays.
     pub growth: f64,
@@ -68,7 +71,7 @@ struct Matrices {
 }
 
 impl<E: BeltElementType> RunningBelt<E> {
-    /// Up to `count` oscillating modes about `running`, by rising frequency.
+    /// Up to `count` modes about `running`, by rising frequency: those that swing, and growths without swing among the exponents found.
     pub fn modes(&mut self, running: &Running, count: usize) -> Result<Vec<Mode>, NoModes> {
         if self.equations.contact.bristles.is_some() {
             return Err(NoModes(
@@ -81,10 +84,10 @@ impl<E: BeltElementType> RunningBelt<E> {
         let mut directions = (4 * count + 60).min(most);
         loop {
             let found = arnoldi(&mut operator, directions)?;
-            let mut modes: Vec<Mode> = (found.iter())
-                .filter(|pair| pair.value[1] > APERIODIC * pair.value[0].abs())
-                .filter(|pair| !self.is_neutral(pair, running))
-                .map(|pair| self.mode(pair, &matrices))
+            let neutral = self.neutral(&found, running);
+            let mut modes: Vec<Mode> = (found.iter().enumerate())
+                .filter(|(i, pair)| Some(*i) != neutral && (pair.swings() || pair.value[0] > 0.0))
+                .map(|(_, pair)| self.mode(pair, &matrices))
                 .collect();
             if modes.len() >= count || directions == most {
                 modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
@@ -128,11 +131,34 @@ impl<E: BeltElementType> RunningBelt<E> {
         }
     }
 
-    /// Whether an eigenpair is the shift of the belt along itself.
-    fn is_neutral(&self, pair: &Pair, running: &Running) -> bool {
-        let belt = self.assembly.mounting.length;
-        let slowest = std::f64::consts::TAU * running.circulation.abs() / belt;
-        pair.value[0].hypot(pair.value[1]) < NEUTRAL * slowest
+    /// Which of the eigenpairs is the shift of the belt along itself: the least of those that move its nodes along the path. On a coarse mesh
+    /// it is not quite neutral.
+    fn neutral(&self, pairs: &[Pair], running: &Running) -> Option<usize> {
+        let chain = self.equations.chain();
+        let nodes: Vec<&[f64]> = running.state[..chain].chunks_exact(E::NODE_DOF).collect();
+        let count = nodes.len();
+        let along: Vec<[f64; 2]> = (0..count)
+            .map(|k| {
+                let (before, after) = (nodes[(k + count - 1) % count], nodes[(k + 1) % count]);
+                let [x, y] = [after[0] - before[0], after[1] - before[1]];
+                [x / x.hypot(y), y / x.hypot(y)]
+            })
+            .collect();
+        let similarity = |pair: &Pair| {
+            let (mut product, mut square) = ([0.0; 2], 0.0);
+            for (moved, t) in pair.vector[..chain].chunks_exact(E::NODE_DOF).zip(&along) {
+                for part in 0..2 {
+                    product[part] += moved[0][part] * t[0] + moved[1][part] * t[1];
+                    square += moved[0][part].powi(2) + moved[1][part].powi(2);
+                }
+            }
+            (product[0].powi(2) + product[1].powi(2)) / (square * count as f64)
+        };
+        let size = |pair: &Pair| pair.value[0].hypot(pair.value[1]);
+        (pairs.iter().enumerate())
+            .filter(|(_, pair)| !pair.swings() && similarity(pair) > ALONG)
+            .min_by(|a, b| size(a.1).total_cmp(&size(b.1)))
+            .map(|(i, _)| i)
     }
 
     fn mode(&self, pair: &Pair, matrices: &Matrices) -> Mode {
@@ -159,7 +185,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             *value *= factor;
         }
         Mode {
-            frequency: pair.value[1],
+            frequency: if pair.swings() { pair.value[1] } else { 0.0 },
             growth: pair.value[0],
             pulley_share: turning / (turning + belt),
             shape,
@@ -175,6 +201,12 @@ impl<E: BeltElementType> RunningBelt<E> {
 struct Pair {
     value: [f64; 2],
     vector: Vec<[f64; 2]>,
+}
+
+impl Pair {
+    fn swings(&self) -> bool {
+        self.value[1] > APERIODIC * self.value[0].abs()
+    }
 }
 
 /// `(A - sigma B)^-1 B` on `[u, u', border]`.
@@ -275,12 +307,16 @@ fn arnoldi(operator: &mut Operator<'_>, count: usize) -> Result<Vec<Pair>, NoMod
     }
     let eigen = Eigen::new_from_real(hessenberg.as_ref())
         .map_err(|_| NoModes("the eigenvalue iteration failed"))?;
+    let largest = (eigen.S().column_vector().iter())
+        .fold(0.0, |most: f64, theta| most.max(theta.re.hypot(theta.im)));
     let mut pairs = Vec::new();
     for k in 0..count {
         let theta = eigen.S().column_vector()[k];
         let square = theta.re * theta.re + theta.im * theta.im;
         let end = eigen.U()[(count - 1, k)];
-        let converged = last * end.re.hypot(end.im) <= TOLERANCE * square.sqrt();
+        // What holds the border at rest has no inertia: its exponents are infinite but for round-off.
+        let finite = square.sqrt() > ROUND_OFF * largest;
+        let converged = finite && last * end.re.hypot(end.im) <= TOLERANCE * square.sqrt();
         // s = sigma + 1 / theta; of each pair the one that turns counter-clockwise.
         if !converged || theta.im > 0.0 {
             continue;

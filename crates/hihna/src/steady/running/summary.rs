@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use super::{Answer, Capacity, Found, Outcome, POWER_TOLERANCE, Running};
+use super::{Answer, Capacity, Found, Most, Outcome, POWER_TOLERANCE, Running};
 use crate::drive::{BeltElement, Drive, SteadyMesh};
+use crate::layout::Arc;
 use crate::summary::{Named, PulleyReport, SpanReport, Start};
 
 /// All of `summary.json`; SI units, angles in radians.
@@ -31,8 +32,11 @@ pub struct RunningSummary {
     /// Of a drive with a slack span.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slack: Option<SlackSummary>,
-    /// The most that the drive carries; null where no torque acts or a span is slack.
+    /// The most that the drive carries; null where no torque acts, a span is slack or it was not found.
     pub capacity: Option<CapacitySummary>,
+    /// Where it was not found: factor on all torques up to which the drive runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runs_up_to: Option<f64>,
     /// The balance of powers, of a drive that runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub audit: Option<Audit>,
@@ -79,9 +83,9 @@ pub struct Steady {
     pub span: Named<SpanReport>,
     /// Unstretched length of belt that passes any place per time, positive in the order of the pulleys [m/s].
     pub circulation_speed: f64,
-    /// Power put in by drivers [W].
+    /// Power put in, by whatever torques act with the motion [W].
     pub power_in: f64,
-    /// Power taken out by loads [W].
+    /// Power taken out, by torques against it [W].
     pub power_out: f64,
     /// Power lost to friction and the damping of the contact [W].
     pub power_lost: f64,
@@ -170,7 +174,13 @@ impl RunningSummary {
             steady: None,
             gross_slip: None,
             slack: None,
-            capacity: outcome.capacity.as_ref().map(|c| capacity(&names, c)),
+            capacity: (outcome.capacity.as_ref())
+                .and_then(Most::known)
+                .map(|c| capacity(&names, c)),
+            runs_up_to: match outcome.capacity {
+                Some(Most::AtLeast(factor)) => Some(factor),
+                _ => None,
+            },
             audit: None,
             warnings: outcome.warnings.iter().map(ToString::to_string).collect(),
         };
@@ -216,6 +226,11 @@ impl RunningSummary {
             ),
             None => "the drive runs".to_owned(),
         };
+        if let Some(factor) = self.runs_up_to {
+            self.warnings.push(format!(
+                "the capacity was not found: the drive runs up to {factor:.4} times its torques, and where more slip carries no more is not known"
+            ));
+        }
         self.solver = Some(Solver {
             found: running.found,
             iterations: running.iterations,
@@ -242,7 +257,7 @@ fn steady(drive: &Drive, outcome: &Outcome, running: &Running) -> Steady {
     let arcs = &outcome.layout.arcs;
     let reference = (drive.pulley.iter())
         .position(crate::drive::Pulley::is_driver)
-        .map_or(0.0, |p| running.pulleys[p].speed.abs() * arcs[p].radius);
+        .map_or(0.0, |p| surface_speed(running.pulleys[p].speed, &arcs[p]));
     let pulleys = drive.pulley.iter().zip(arcs).zip(&running.pulleys);
     let pulley: Vec<_> = pulleys
         .map(|((pulley, arc), state)| {
@@ -253,7 +268,7 @@ fn steady(drive: &Drive, outcome: &Outcome, running: &Running) -> Steady {
                 external_torque: state.external_torque,
                 hub_force: state.hub_force,
                 slip_speed: state.slip_speed,
-                speed_loss: 1.0 - state.speed.abs() * arc.radius / reference,
+                speed_loss: 1.0 - surface_speed(state.speed, arc) / reference,
                 wrap_angle: arc.sweep.abs(),
                 contact_angle: state.contact_angle,
                 slip_angle: state.slip_angle,
@@ -285,7 +300,9 @@ fn steady(drive: &Drive, outcome: &Outcome, running: &Running) -> Steady {
         })
         .collect();
     let powers = &running.powers;
-    let (power_in, power_out) = (powers.input, -powers.load);
+    let turned = (running.pulleys.iter()).map(|p| p.external_torque * p.speed);
+    let power_in: f64 = turned.clone().map(|power| power.max(0.0)).sum();
+    let power_out: f64 = turned.map(|power| (-power).max(0.0)).sum();
     let speed_loss =
         (pulley.iter().map(|(_, p)| p.report.speed_loss)).fold(0.0, |most: f64, loss| {
             if loss.abs() > most.abs() { loss } else { most }
@@ -297,9 +314,14 @@ fn steady(drive: &Drive, outcome: &Outcome, running: &Running) -> Steady {
         power_in,
         power_out,
         power_lost: powers.friction + powers.contact,
-        efficiency: (power_in > 0.0 && power_out != 0.0).then(|| power_out / power_in),
+        efficiency: (power_in > 0.0 && power_out > 0.0).then(|| power_out / power_in),
         speed_loss,
     }
+}
+
+/// Speed of the surface in the order of the pulleys, positive where the belt runs that way [m/s].
+fn surface_speed(speed: f64, arc: &Arc) -> f64 {
+    speed * arc.radius * arc.sweep.signum()
 }
 
 fn capacity(names: &[&str], capacity: &Capacity) -> CapacitySummary {
