@@ -50,6 +50,14 @@ impl Motion {
         }
     }
 
+    /// The length of a vector that has not `wanted` values.
+    fn wrong_size(&self, wanted: usize) -> Option<usize> {
+        [&self.q, &self.v, &self.a, &self.algorithmic]
+            .map(Vec::len)
+            .into_iter()
+            .find(|given| *given != wanted)
+    }
+
     /// Copies `other` without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.time = other.time;

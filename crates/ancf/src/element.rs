@@ -28,6 +28,7 @@ pub use plate_thin::{BendingRigidity, PlateQuadrature, ThinPlate};
 use crate::mesh::kernels::BodyKernels;
 use crate::scalar::Scalar;
 use crate::strain::SurfaceGradient;
+use crate::unsound::Unsound;
 
 /// An element with `NODES` nodes of `NODE_VECTORS` vectors in `DIMENSION` dimensions.
 ///
@@ -92,6 +93,11 @@ pub trait Element: BodyKernels + Clone + PartialEq + std::fmt::Debug + Send + Sy
     /// Stiffness times length [N m] that makes energies of this element dimensionless in checks:
     /// `E A l` for a beam, `E h l w` for a plate.
     fn energy_scale(&self) -> f64;
+
+    /// Refuses an element of a material, section or length that cannot be. Structures ask before they compute.
+    fn check(&self) -> Result<(), Unsound> {
+        Ok(())
+    }
 }
 
 /// An element whose material points lie on a line `0 <= x <= length`: beams.

@@ -20,3 +20,4 @@ pub mod statics;
 pub mod strain;
 pub mod structure;
 pub mod system;
+pub mod unsound;

@@ -16,6 +16,7 @@
 mod block_size;
 mod compressed;
 mod cyclic;
+mod dense_inverse;
 mod elimination;
 mod kernel;
 mod matrix;
@@ -24,6 +25,7 @@ mod tail;
 
 pub use compressed::CompressedRows;
 pub use cyclic::CyclicSolver;
+pub use dense_inverse::DenseInverse;
 pub use matrix::{BorderedMatrix, Structure};
 pub use sparse::SparseSolver;
 

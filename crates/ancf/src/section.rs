@@ -6,6 +6,8 @@ use std::f64::consts::PI;
 
 pub use trapezoid::Trapezoid;
 
+use crate::unsound::{Unsound, positive, within};
+
 /// Shear correction factor ks of the rectangle, used by every beam with shear, as published
 /// (Kerkkänen 2006, 2.18 and 4.34).
 pub const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
@@ -23,6 +25,22 @@ pub struct PlanarSection {
 }
 
 impl PlanarSection {
+    /// Refuses moments that no area has: all are positive, and by the inequality of Cauchy and Schwarz
+    /// `(∫ y² dA)² <= ∫ dA ∫ y⁴ dA`, with equality for two flanges without height.
+    pub fn check(&self) -> Result<(), Unsound> {
+        positive("the area of the section [m²]", self.area)?;
+        positive("the second moment of the section [m⁴]", self.second_moment)?;
+        let least = self.second_moment * self.second_moment / self.area;
+        // The moments of two flanges may be rounded.
+        let fits = self.fourth_moment >= least * (1.0 - 1.0e-9) && self.fourth_moment.is_finite();
+        within(
+            "the fourth moment of the section [m⁶]",
+            self.fourth_moment,
+            fits,
+            "finite and at least the square of the second moment over the area",
+        )
+    }
+
     /// A rectangle of the given width (out of the plane) and height (in the plane) [m].
     #[must_use]
     pub fn rectangle(width: f64, height: f64) -> Self {

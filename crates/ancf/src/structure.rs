@@ -35,6 +35,7 @@ pub use modes::Mode;
 pub use plate::{Edge, PlateStructure};
 pub use spatial::{NodeDirection, SpatialStructure};
 
+use std::fmt;
 use std::sync::Arc;
 
 use thiserror::Error;
@@ -43,6 +44,7 @@ use crate::constraint::{ConstraintError, ConstraintForm};
 use crate::element::LineElement;
 use crate::statics::{Equilibrium, LoadStepError, LoadSteps};
 use crate::system::Motion;
+use crate::unsound::Unsound;
 
 /// A vector of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +78,28 @@ pub enum Coordinate {
     },
 }
 
+impl fmt::Display for Coordinate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let axis = |k: usize| ["x", "y"].get(k).copied().unwrap_or("?");
+        match *self {
+            Self::Node {
+                node,
+                vector,
+                axis: k,
+            } => {
+                let of = match vector {
+                    NodeVector::Position => "",
+                    NodeVector::Along => " of the slope along the body",
+                    NodeVector::Across => " of the slope across the body",
+                };
+                write!(f, "{}{of} of node {node}", axis(k))
+            }
+            Self::Body { body, index: 2 } => write!(f, "the angle of rigid body {body}"),
+            Self::Body { body, index } => write!(f, "{} of rigid body {body}", axis(index)),
+        }
+    }
+}
+
 /// A planar rigid body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidBody {
@@ -102,12 +126,6 @@ pub enum StructureError {
         /// The last node.
         last: usize,
     },
-    /// A component that vectors in space do not have.
-    #[error("there is no axis {axis}: the components of a vector in space are 0, 1 and 2")]
-    NoAxis {
-        /// The number given.
-        axis: usize,
-    },
     /// A node that the plate does not have.
     #[error("there is no node {node:?}: the nodes are [0, 0] to {last:?}, with axes 0 to 2")]
     NoPlateNode {
@@ -115,6 +133,29 @@ pub enum StructureError {
         node: [usize; 2],
         /// The last node.
         last: [usize; 2],
+    },
+    /// A component that vectors of nodes or rigid bodies do not have.
+    #[error("there is no component {component} of {what}: the components are 0 to {last}")]
+    NoComponent {
+        /// What has components.
+        what: &'static str,
+        /// The number given.
+        component: usize,
+        /// The last component.
+        last: usize,
+    },
+    /// A structure without elements.
+    #[error("a structure needs at least one element")]
+    NoElements,
+    /// A state or an equilibrium of another structure.
+    #[error("{what} has {given} values, this structure has {wanted}: it is that of another one")]
+    Foreign {
+        /// What was given.
+        what: &'static str,
+        /// Its length.
+        given: usize,
+        /// The length that it must have.
+        wanted: usize,
     },
     /// A body that the structure does not have.
     #[error("there is no rigid body {body}: {bodies} were added")]
@@ -184,6 +225,23 @@ pub enum StructureError {
     Modes,
 }
 
+impl From<Unsound> for StructureError {
+    fn from(
+        Unsound {
+            what,
+            value,
+            remedy,
+        }: Unsound,
+    ) -> Self {
+        let what = what.to_owned();
+        Self::Value {
+            what,
+            value,
+            remedy,
+        }
+    }
+}
+
 fn join(motions: &[FreeMotion]) -> String {
     let texts: Vec<String> = motions.iter().map(ToString::to_string).collect();
     texts.join(", and ")
@@ -233,14 +291,13 @@ pub struct PlanarStructure<E> {
 }
 
 impl<E: LineElement> PlanarStructure<E> {
-    /// A straight beam of `count` (at least 1) elements like `element`, drawn from `start` [m] in the
-    /// direction `angle` [rad].
+    /// A straight beam of `count` elements like `element`, drawn from `start` [m] in the direction
+    /// `angle` [rad].
     #[must_use]
     pub fn straight(element: E, count: usize, start: [f64; 2], angle: f64) -> Self {
         let mut local = vec![0.0; E::DOF];
         element.reference(&mut local);
         let (sine, cosine) = angle.sin_cos();
-        let count = count.max(1);
         let mut coordinates = Vec::with_capacity((count + 1) * E::NODE_DOF);
         for node in 0..=count {
             for (k, vector) in local[..E::NODE_DOF].chunks_exact(2).enumerate() {
@@ -333,7 +390,7 @@ impl<E: LineElement> PlanarStructure<E> {
     /// Moves a coordinate as prescribed in time.
     pub fn prescribe(&mut self, coordinate: Coordinate, motion: Arc<dyn Motion>) -> &mut Self {
         self.equations.push(Equation {
-            name: format!("prescribed motion of {coordinate:?}"),
+            name: format!("prescribed motion of {coordinate}"),
             terms: vec![(coordinate, 1.0)],
             value: Some(motion),
         });

@@ -1,6 +1,8 @@
 //! The bordered matrix and both solvers: closed forms, properties, comparison with each other.
 
-use ancf::linear::{BorderedMatrix, CyclicSolver, Singular, Solver, SparseSolver, Structure};
+use ancf::linear::{
+    BorderedMatrix, CyclicSolver, DenseInverse, Singular, Solver, SparseSolver, Structure,
+};
 use proptest::prelude::*;
 
 const EPSILON: f64 = f64::EPSILON;
@@ -337,6 +339,28 @@ fn wide_sections() {
             for x in solve(&matrix, &right) {
                 assert_close(&x, &exact, 8.0 * (4 * block + 3) as f64 * EPSILON);
             }
+        }
+    }
+}
+
+/// The whole inverse solves as the factor does that it was made from; of more than 64 unknowns there is none. Rows
+/// are dominated by their diagonal, so that the inverse has norm one at most: a few roundings of sums of 38 terms.
+#[test]
+fn a_small_matrix_may_be_inverted_whole() {
+    let mut numbers = Numbers(11);
+    for (sections, exists) in [(9, true), (16, false)] {
+        let structure = structure(sections, 4, false, 2);
+        let matrix = dominant_matrix(structure, &mut numbers);
+        let mut solver = CyclicSolver::new(structure);
+        solver.factor(&matrix).unwrap();
+        let inverse = DenseInverse::new(&mut solver, structure.size());
+        assert_eq!(inverse.is_some(), exists);
+        for mut inverse in inverse {
+            let right = numbers.take(structure.size());
+            let (mut by_inverse, mut by_factor) = (right.clone(), right);
+            inverse.solve(&mut by_inverse);
+            solver.solve(&mut by_factor);
+            assert_close(&by_inverse, &by_factor, 16.0 * EPSILON);
         }
     }
 }

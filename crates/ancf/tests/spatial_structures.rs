@@ -277,7 +277,11 @@ fn what_structures_refuse() {
     );
     assert_eq!(
         beam.index(1, NodeDirection::Width, 3),
-        Err(StructureError::NoAxis { axis: 3 })
+        Err(StructureError::NoComponent {
+            what: "a vector",
+            component: 3,
+            last: 2
+        })
     );
     beam.force(1, NodeDirection::Position, [f64::NAN, 0.0, 0.0]);
     assert!(matches!(

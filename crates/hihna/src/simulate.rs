@@ -186,16 +186,18 @@ impl RunError {
         belt: (usize, usize),
         cause: IntegrationError,
     ) -> Self {
-        let IntegrationError::StepFailed {
-            time,
-            cause: failure,
-            ..
-        } = &cause;
-        Self::Step {
-            time: *time,
-            place: place(drive, layout, q, failure.coordinate, belt),
-            cause,
-        }
+        let (time, place) = match &cause {
+            IntegrationError::StepFailed {
+                time,
+                cause: failure,
+                ..
+            } => (*time, place(drive, layout, q, failure.coordinate, belt)),
+            // Not the drive's case: its checked fields choose the steps.
+            IntegrationError::Control(_) | IntegrationError::Size { .. } => {
+                (0.0, "before the first step".to_owned())
+            }
+        };
+        Self::Step { time, place, cause }
     }
 
     fn start(

@@ -13,6 +13,7 @@ use super::stage::{NotConverged, Stage};
 use super::{GeneralizedAlpha, Motion, RungeKutta4, Scheme, Statistics, TrBdf2};
 use crate::norm::VectorNorm;
 use crate::system::{Mechanics, State};
+use crate::unsound::{Unsound, positive, within};
 
 /// Damping at infinite frequency: more (0.6) costs energy balance, less (0.9) Newton iterations.
 const SPECTRAL_RADIUS: f64 = 0.8;
@@ -28,6 +29,8 @@ const FALLBACK_STEPS: usize = 32;
 const BEFORE_A_JUMP: f64 = 1.0e-9;
 /// Steps in which motion settles after a jump: doubled as they are, the last is a thousand times the first.
 const AFTER_A_JUMP: usize = 32;
+/// Steps of a run: with [`LEVELS`] halvings of each they must be counted in 64 bits.
+const MOST_STEPS: f64 = 1.0e11;
 /// Good steps before the step is doubled.
 const PATIENCE: usize = 3;
 /// Halvings that an observer may ask for beyond what errors of prediction call for.
@@ -79,6 +82,39 @@ impl Control {
             newton_tolerance: 1.0e-9,
             kinks: Vec::new(),
             jumps: Vec::new(),
+        }
+    }
+
+    /// Refuses what cannot choose steps, an `end` before the start, and a motion of other than `size` coordinates.
+    fn check(&self, motion: &Motion, size: usize, end: f64) -> Result<(), IntegrationError> {
+        positive("the step [s]", self.step)?;
+        positive(
+            "the tolerance of Newton's method [m/s]",
+            self.newton_tolerance,
+        )?;
+        if let Some(tolerance) = self.error_tolerance {
+            positive("the error tolerance of the steps [m/s]", tolerance)?;
+        }
+        let fits = end >= motion.time && end.is_finite();
+        within(
+            "the end of the motion [s]",
+            end,
+            fits,
+            "finite and not before its start",
+        )?;
+        let fits = (end - motion.time) / self.step < MOST_STEPS;
+        within(
+            "the step [s]",
+            self.step,
+            fits,
+            "longer, for fewer than 1e11 steps",
+        )?;
+        match motion.wrong_size(size) {
+            Some(given) => Err(IntegrationError::Size {
+                given,
+                wanted: size,
+            }),
+            None => Ok(()),
         }
     }
 
@@ -151,6 +187,17 @@ impl Window<'_> {
 /// A run that could not go on.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum IntegrationError {
+    /// A number that steps cannot be chosen by.
+    #[error(transparent)]
+    Control(#[from] Unsound),
+    /// A state of another system.
+    #[error("the motion has {given} coordinates, the system has {wanted}")]
+    Size {
+        /// Coordinates of the motion.
+        given: usize,
+        /// Coordinates of the system.
+        wanted: usize,
+    },
     /// The equations of a step could not be solved at any step length tried.
     #[error("no step from t = {time} s converges, down to {step:.1e} s: {cause}")]
     StepFailed {
@@ -174,6 +221,7 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
     mut observe: impl FnMut(&mut S, Window<'_>) -> ControlFlow<(), P>,
 ) -> Result<Statistics, IntegrationError> {
     let size = motion.q.len();
+    control.check(motion, system.structure().size(), end)?;
     // Where forces jump at the end, the last step ends before: what they are behind it is no part of the run.
     let end = match control.jump_at(end) {
         Some(_) => end * (1.0 - 8.0 * f64::EPSILON),
@@ -182,6 +230,9 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
     let mut stage = Stage::new(system, control.newton_tolerance);
     stage.accelerations(system, motion);
     motion.algorithmic.copy_from_slice(&motion.a);
+    if end <= motion.time {
+        return Ok(stage.statistics);
+    }
     let mut next = motion.clone();
     let mut schemes = Schemes::new(control.method, size);
     let positions = VectorNorm::of_positions(system);
@@ -424,7 +475,7 @@ impl Grid {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "positive, and far below 2^40 for any run that ends"
+            reason = "positive, and at most MOST_STEPS < 2^40"
         )]
         let units = (count as u64) << LEVELS;
         Self {

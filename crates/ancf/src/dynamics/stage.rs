@@ -19,7 +19,7 @@ use thiserror::Error;
 
 use super::{Motion, Statistics};
 use crate::constraint::ConstraintSet;
-use crate::linear::{BorderedMatrix, CompressedRows, CyclicSolver, Solver};
+use crate::linear::{BorderedMatrix, CompressedRows, CyclicSolver, DenseInverse, Solver};
 use crate::norm::VectorNorm;
 use crate::system::{Mechanics, State};
 
@@ -75,6 +75,10 @@ pub struct Stage {
     solver: CyclicSolver,
     mass_solver: CyclicSolver,
     mass_factored: bool,
+    /// The inverse of a small constant mass, once it has paid for itself.
+    mass_inverse: Option<DenseInverse>,
+    /// Solutions with the present factor of the mass.
+    mass_solutions: usize,
     /// `g_v` of the present factor, zero for none.
     factored_for: f64,
     force: Vec<f64>,
@@ -110,6 +114,8 @@ impl Stage {
             solver: CyclicSolver::new(structure),
             mass_solver: CyclicSolver::new(structure),
             mass_factored: false,
+            mass_inverse: None,
+            mass_solutions: 0,
             factored_for: 0.0,
             force: vec![0.0; size],
             residual: vec![0.0; size],
@@ -140,6 +146,8 @@ impl Stage {
             // A free rotor without inertia leaves the mass singular: its acceleration is NaN then,
             // which the schemes report as a step that does not converge.
             self.mass_factored = self.mass_solver.factor(&self.matrix).is_ok();
+            self.mass_inverse = None;
+            self.mass_solutions = 0;
         }
         let state = State {
             time: motion.time,
@@ -155,10 +163,23 @@ impl Stage {
             self.force[*index] = motion.a[*index];
         }
         if self.mass_factored {
-            self.mass_solver.solve(&mut self.force);
+            self.solve_for_accelerations();
             motion.a.copy_from_slice(&self.force);
         } else {
             motion.a.fill(f64::NAN);
+        }
+    }
+
+    /// Replaces the force by the accelerations. The inverse costs as many solutions as there are unknowns.
+    fn solve_for_accelerations(&mut self) {
+        if let Some(inverse) = &mut self.mass_inverse {
+            inverse.solve(&mut self.force);
+            return;
+        }
+        self.mass_solver.solve(&mut self.force);
+        self.mass_solutions += 1;
+        if self.mass_solutions == self.force.len() {
+            self.mass_inverse = DenseInverse::new(&mut self.mass_solver, self.force.len());
         }
     }
 

@@ -41,6 +41,7 @@ use crate::material::Isotropic;
 use crate::quadrature::Rule;
 use crate::scalar::{Scalar, unroll};
 use crate::section::{PlanarSection, SHEAR_CORRECTION};
+use crate::unsound::{Unsound, positive, within};
 
 /// Gauss points along the element; more change no published result.
 const POINTS: usize = 5;
@@ -60,6 +61,7 @@ pub struct BeltBeam2 {
     /// Kelvin-Voigt time of axial strain and curvature [s].
     damping_time: f64,
     points: [Point; POINTS],
+    sound: Result<(), Unsound>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -110,6 +112,20 @@ impl BeltBeam2 {
             axial_stiffness: axial_factor * youngs * section.area,
             damping_time,
             points,
+            sound: positive("the length of an element [m]", length)
+                .and_then(|()| section.check())
+                .and_then(|()| material.check())
+                .and_then(|()| positive("the axial factor", axial_factor))
+                .and_then(|()| positive("the bending factor", bending_factor))
+                .and_then(|()| {
+                    let fits = damping_time >= 0.0 && damping_time.is_finite();
+                    within(
+                        "the damping time [s]",
+                        damping_time,
+                        fits,
+                        "finite and not negative",
+                    )
+                }),
         }
     }
 
@@ -353,6 +369,10 @@ impl Element for BeltBeam2 {
 
     fn energy_scale(&self) -> f64 {
         self.transverse_stiffness * self.length
+    }
+
+    fn check(&self) -> Result<(), Unsound> {
+        self.sound
     }
 }
 

@@ -37,6 +37,7 @@ use crate::material::Isotropic;
 use crate::quadrature::Rule;
 use crate::scalar::{Scalar, unroll};
 use crate::section::PlanarSection;
+use crate::unsound::{Unsound, positive};
 
 /// Gauss points along the element, as published.
 const POINTS: usize = 4;
@@ -54,6 +55,7 @@ pub struct CubicBeam2 {
     reference: [f64; DOF],
     vector_mass: [f64; 36],
     integration: Integration,
+    sound: Result<(), Unsound>,
 }
 
 /// The reference coordinates of a curved beam turn its material inside out somewhere.
@@ -171,6 +173,9 @@ impl CubicBeam2 {
             reference,
             vector_mass: curved::mass(&reference, length, section, material.density),
             integration,
+            sound: positive("the length of an element [m]", length)
+                .and_then(|()| section.check())
+                .and_then(|()| material.check_compressible()),
         }
     }
 
@@ -341,6 +346,10 @@ impl Element for CubicBeam2 {
 
     fn energy_scale(&self) -> f64 {
         self.axial_stiffness * self.length
+    }
+
+    fn check(&self) -> Result<(), Unsound> {
+        self.sound
     }
 }
 

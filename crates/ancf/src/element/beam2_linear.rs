@@ -19,6 +19,7 @@ use super::{Element, LineElement};
 use crate::material::Isotropic;
 use crate::scalar::Scalar;
 use crate::section::{PlanarSection, SHEAR_CORRECTION};
+use crate::unsound::{Unsound, positive};
 
 const DOF: usize = 8;
 
@@ -34,6 +35,7 @@ pub struct LinearBeam2 {
     rotary_density: f64,
     axial_stiffness: f64,
     section: PlaneSection,
+    sound: Result<(), Unsound>,
 }
 
 impl LinearBeam2 {
@@ -49,6 +51,9 @@ impl LinearBeam2 {
             rotary_density: material.density * section.second_moment,
             axial_stiffness: youngs * section.area,
             section: PlaneSection::new(section, youngs, 0.0, shear),
+            sound: positive("the length of an element [m]", length)
+                .and_then(|()| section.check())
+                .and_then(|()| material.check()),
         }
     }
 
@@ -148,6 +153,10 @@ impl Element for LinearBeam2 {
 
     fn energy_scale(&self) -> f64 {
         self.axial_stiffness * self.length
+    }
+
+    fn check(&self) -> Result<(), Unsound> {
+        self.sound
     }
 }
 

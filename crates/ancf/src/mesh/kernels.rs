@@ -96,7 +96,9 @@ pub fn add_tangent<E: Element>(
 /// planar beam: the size is known to the compiler, which drops the other calls.
 macro_rules! with_element_size {
     ($self:ident, $scalar:ty, $element:ty) => {
-        if const { <$element>::DOF <= 12 } {
+        if const { <$element>::DOF <= 8 } {
+            $self.sized::<$scalar, 8>()
+        } else if const { <$element>::DOF <= 12 } {
             $self.sized::<$scalar, 12>()
         } else if const { <$element>::DOF <= 24 } {
             $self.sized::<$scalar, 24>()

@@ -69,14 +69,16 @@ impl<E: LineElement> PlanarStructure<E> {
                     NodeVector::Across => E::NODE_VECTORS - 1,
                 };
                 let node = if node == self.nodes() { 0 } else { node };
-                Ok(node * E::NODE_DOF + 2 * vector + axis.min(1))
+                component("a vector", axis, 1)?;
+                Ok(node * E::NODE_DOF + 2 * vector + axis)
             }
             Coordinate::Body { body, index } => {
                 let bodies = self.bodies.len();
                 if body >= bodies {
                     return Err(StructureError::NoBody { body, bodies });
                 }
-                Ok(self.chain() + 3 * body + index.min(2))
+                component("a rigid body", index, 2)?;
+                Ok(self.chain() + 3 * body + index)
             }
         }
     }
@@ -125,10 +127,18 @@ impl<E: LineElement> PlanarStructure<E> {
         })
     }
 
-    /// The start of a motion: coordinates as drawn, at rest but for what prescribed motions say.
+    /// The start of a motion of the `system` that this structure was built to: coordinates as drawn, at rest
+    /// but for what prescribed motions say.
+    ///
+    /// # Panics
+    /// If `system` is that of a structure with fewer coordinates.
     pub fn at_rest(&self, system: &System<E, Loads>) -> Motion {
         let mut motion = Motion::zero(system.structure().size());
         let drawn = self.drawn();
+        assert!(
+            drawn.len() <= motion.q.len(),
+            "the system was built from another structure"
+        );
         motion.q[..drawn.len()].copy_from_slice(&drawn);
         system.prescribe(0.0, &mut motion.q, &mut motion.v, &mut motion.a);
         motion
@@ -142,7 +152,7 @@ impl<E: LineElement> PlanarStructure<E> {
         q: &[f64],
         v: &[f64],
     ) -> Result<Motion, StructureError> {
-        start::consistent(system, q, v)
+        start::consistent(system, self.chain() + 3 * self.bodies.len(), q, v)
     }
 
     /// The static equilibrium under all loads, with prescribed motions as at time zero.
@@ -190,8 +200,11 @@ impl<E: LineElement> PlanarStructure<E> {
     }
 
     fn check(&self) -> Result<(), StructureError> {
+        if self.elements.is_empty() {
+            return Err(StructureError::NoElements);
+        }
         let wanted = (self.elements.len() + 1) * E::NODE_DOF;
-        if self.coordinates.len() != wanted || self.elements.is_empty() {
+        if self.coordinates.len() != wanted {
             return Err(StructureError::CoordinateCount {
                 given: self.coordinates.len(),
                 wanted,
@@ -209,14 +222,15 @@ impl<E: LineElement> PlanarStructure<E> {
             }
         };
         for element in &self.elements {
-            positive("the length of an element [m]".to_owned(), element.length())?;
+            element.check()?;
+            // Numbers that are sound alone may still be too large or too small together.
             positive(
                 "Young's modulus times the volume of an element [N m]".to_owned(),
                 element.energy_scale(),
             )?;
         }
         positive(
-            "the mass of an element (density times volume)".to_owned(),
+            "the thickness by the inertia of an element [m]".to_owned(),
             self.thickness(),
         )?;
         for body in &self.bodies {
@@ -238,6 +252,18 @@ impl<E: LineElement> PlanarStructure<E> {
         )?;
         let factors = self.equations.iter().flat_map(|equation| &equation.terms);
         finite("a direction", factors.map(|(_, factor)| *factor))?;
+        for equation in &self.equations {
+            let value = equation.value.as_ref().map(|motion| motion.at(0.0));
+            let what = format!("at the start the {}", equation.name);
+            finite(&what, value.into_iter().flatten())?;
+        }
+        for turned in &self.turned {
+            let what = format!(
+                "at the start the prescribed rotation of node {}",
+                turned.node
+            );
+            finite(&what, turned.angle.at(0.0).into_iter())?;
+        }
         if self.joined {
             let first = &self.coordinates[..E::NODE_DOF];
             let last = &self.coordinates[wanted - E::NODE_DOF..];
@@ -410,6 +436,17 @@ impl<E: LineElement> PlanarStructure<E> {
         }
         Ok(attachments)
     }
+}
+
+fn component(what: &'static str, component: usize, last: usize) -> Result<(), StructureError> {
+    if component > last {
+        return Err(StructureError::NoComponent {
+            what,
+            component,
+            last,
+        });
+    }
+    Ok(())
 }
 
 pub(super) fn finite(

@@ -22,6 +22,7 @@ use faer::linalg::solvers::{Eigen, Llt, SelfAdjointEigen};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, MatRef, Par, Side};
 
+use super::build::finite;
 use super::{PlanarStructure, StructureError};
 use crate::constraint::ConstraintSet;
 use crate::element::{Element, LineElement};
@@ -60,7 +61,29 @@ pub(super) fn natural_modes<E: Element, L: ForceLaw>(
 where
     System<E, L>: Loaded,
 {
+    let wanted = system.structure().size();
+    for (what, values) in [
+        ("the equilibrium", &equilibrium.q),
+        (
+            "the multipliers of the equilibrium",
+            &equilibrium.multipliers,
+        ),
+    ] {
+        let given = values.len();
+        if given != wanted {
+            return Err(StructureError::Foreign {
+                what,
+                given,
+                wanted,
+            });
+        }
+        finite(what, values.iter().copied())?;
+    }
     let reduced = Reduced::new(system, equilibrium, gyroscopic);
+    if reduced.mass.nrows() == 0 {
+        // Everything is held.
+        return Ok(Vec::new());
+    }
     let mass = Llt::new(reduced.mass.as_ref(), Side::Lower).map_err(|_| StructureError::Modes)?;
     let free = reduced.mass.nrows();
     let mut inverse = Mat::<f64>::identity(free, free);

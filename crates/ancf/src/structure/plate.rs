@@ -327,7 +327,7 @@ impl PlateStructure {
         q: &[f64],
         v: &[f64],
     ) -> Result<Motion, StructureError> {
-        start::consistent(system, q, v)
+        start::consistent(system, self.drawn.len(), q, v)
     }
 
     /// The static equilibrium under all loads.

@@ -79,13 +79,12 @@ pub struct SpatialStructure<E> {
 }
 
 impl<E: LineElement> SpatialStructure<E> {
-    /// A straight beam of `count` (at least 1) elements like `element`, drawn from `start` [m]: `axes` are the unit
+    /// A straight beam of `count` elements like `element`, drawn from `start` [m]: `axes` are the unit
     /// vectors of its length, height and width, at right angles to each other.
     #[must_use]
     pub fn straight(element: E, count: usize, start: [f64; 3], axes: [[f64; 3]; 3]) -> Self {
         let mut local = vec![0.0; E::DOF];
         element.reference(&mut local);
-        let count = count.max(1);
         let mut coordinates = Vec::with_capacity((count + 1) * E::NODE_DOF);
         for node in 0..=count {
             for (k, vector) in local[..E::NODE_DOF].chunks_exact(3).enumerate() {
@@ -253,9 +252,6 @@ impl<E: LineElement> SpatialStructure<E> {
             let last = self.last();
             return Err(StructureError::NoNode { node, last });
         }
-        if axis > 2 {
-            return Err(StructureError::NoAxis { axis });
-        }
         let across = E::NODE_VECTORS - 2;
         let vector = match vector {
             NodeDirection::Position => 0,
@@ -264,6 +260,13 @@ impl<E: LineElement> SpatialStructure<E> {
             NodeDirection::Height => across,
             NodeDirection::Width => across + 1,
         };
+        if axis > 2 {
+            return Err(StructureError::NoComponent {
+                what: "a vector",
+                component: axis,
+                last: 2,
+            });
+        }
         let node = node % self.nodes();
         Ok(node * E::NODE_DOF + 3 * vector + axis)
     }
@@ -299,6 +302,9 @@ impl<E: LineElement> SpatialStructure<E> {
     }
 
     /// The start of a motion: coordinates as drawn, at rest but for what prescribed motions say.
+    ///
+    /// # Panics
+    /// If `system` is that of a structure with fewer coordinates.
     pub fn at_rest(&self, system: &System<E, Loads>) -> dynamics::Motion {
         let mut motion = dynamics::Motion::zero(system.structure().size());
         let drawn = self.drawn();
@@ -315,7 +321,7 @@ impl<E: LineElement> SpatialStructure<E> {
         q: &[f64],
         v: &[f64],
     ) -> Result<dynamics::Motion, StructureError> {
-        start::consistent(system, q, v)
+        start::consistent(system, self.nodes() * E::NODE_DOF, q, v)
     }
 
     /// The static equilibrium under all loads, with prescribed motions as at time zero.
@@ -378,14 +384,18 @@ impl<E: LineElement> SpatialStructure<E> {
     }
 
     fn check(&self) -> Result<(), StructureError> {
+        if self.elements.is_empty() {
+            return Err(StructureError::NoElements);
+        }
         let wanted = (self.elements.len() + 1) * E::NODE_DOF;
-        if self.coordinates.len() != wanted || self.elements.is_empty() {
+        if self.coordinates.len() != wanted {
             return Err(StructureError::CoordinateCount {
                 given: self.coordinates.len(),
                 wanted,
             });
         }
         for element in &self.elements {
+            element.check()?;
             for (what, value) in [
                 ("the length of an element [m]", element.length()),
                 (

@@ -1,6 +1,7 @@
 //! The start of a motion with given coordinates and velocities.
 
 use super::StructureError;
+use super::build::finite;
 use crate::dynamics::Motion;
 use crate::element::Element;
 use crate::system::{ForceLaw, Mechanics, State, System};
@@ -8,17 +9,30 @@ use crate::system::{ForceLaw, Mechanics, State, System};
 /// Largest violation of constraints by a start [m, m/s].
 const CONSISTENT: f64 = 1.0e-9;
 
-/// The state of `system` with the coordinates `q` and the velocities `v`, with or without places for multipliers, and
-/// what is prescribed put in; an error where they break a constraint by more than rounding.
+/// The state of `system` with the coordinates `q` and the velocities `v`, with or without places for multipliers
+/// (there are `without_multipliers` others), and what is prescribed put in; an error where they break a constraint by
+/// more than rounding.
 pub(super) fn consistent<E: Element, L: ForceLaw>(
     system: &System<E, L>,
+    without_multipliers: usize,
     q: &[f64],
     v: &[f64],
 ) -> Result<Motion, StructureError> {
     let mut motion = Motion::zero(system.structure().size());
-    for (target, source) in [(&mut motion.q, q), (&mut motion.v, v)] {
-        let count = source.len().min(target.len());
-        target[..count].copy_from_slice(&source[..count]);
+    for (what, target, source) in [
+        ("the coordinates", &mut motion.q, q),
+        ("the velocities", &mut motion.v, v),
+    ] {
+        let (given, wanted) = (source.len(), target.len());
+        if given != wanted && given != without_multipliers || given > wanted {
+            return Err(StructureError::Foreign {
+                what,
+                given,
+                wanted,
+            });
+        }
+        finite(what, source.iter().copied())?;
+        target[..given].copy_from_slice(source);
     }
     for (index, prescribed) in system.prescribed() {
         let [place, velocity, _] = prescribed.at(0.0);
