@@ -63,32 +63,35 @@ impl Loaded {
         Ok(self.mean(&format!("{TIGHT}.tension"))? - self.mean(&format!("{SLACK}.tension"))?)
     }
 
-    /// Mean of both pulleys' torques over the moment of the spans' T - rho A v² about their centres. The
-    /// spans run inside the path by their deflection, and straight: their mean lever about both
-    /// centres is the radius less the deflection in the middle.
-    fn moment_balance(&self, window: [f64; 2]) -> Result<f64, CaseError> {
+    /// Moment [N m] of the spans' T - rho A v² about a pulley's centre. The spans run inside the path by
+    /// their deflection, and straight: their mean lever about both centres is the radius less the
+    /// deflection in the middle.
+    fn moment(&self, window: [f64; 2]) -> Result<f64, CaseError> {
         let radius = self.run.drive.pulley[DRIVEN].radius;
         let moment = |span: &str| -> Result<f64, CaseError> {
             let deflection = self.run.mean(&format!("{span}.deflection"), window)?;
             Ok(self.run.pressing_tension(span, window)? * (radius - deflection))
         };
-        let torque = |pulley: &str| self.run.mean(&format!("{pulley}.torque"), window);
-        let torque = 0.5 * (torque("driven")? - torque("driver")?);
-        Ok(torque / (moment(TIGHT)? - moment(SLACK)?))
+        Ok(moment(TIGHT)? - moment(SLACK)?)
     }
 
-    /// Driven pulley's torque over the opposing one and that of its inertia under the driver's acceleration,
-    /// while the drive accelerates.
+    /// Mean of both pulleys' torques over the moment of the spans.
+    fn moment_balance(&self) -> Result<f64, CaseError> {
+        let torque = 0.5 * (self.mean("driven.torque")? - self.mean("driver.torque")?);
+        Ok(torque / self.moment(STEADY)?)
+    }
+
+    /// The opposing torque and that of the driven pulley's inertia over the moment of the spans, while the drive
+    /// accelerates.
     fn acceleration_balance(&self) -> Result<f64, CaseError> {
-        let driven = &self.run.drive.pulley[DRIVEN];
-        let speed = &self.run.window("driver.speed", ACCELERATION)?;
+        let speed = self.run.window("driven.speed", ACCELERATION)?;
         let [first, .., last] = speed.as_slice() else {
             return Err(CaseError::DoesNotRun);
         };
         let acceleration = (last - first) / (ACCELERATION[1] - ACCELERATION[0]);
         let opposing = self.run.mean("driven.external_torque", ACCELERATION)?;
-        let torque = self.run.mean("driven.torque", ACCELERATION)?;
-        Ok(torque / (driven.inertia * acceleration - opposing))
+        let inertia = self.run.drive.pulley[DRIVEN].inertia;
+        Ok((inertia * acceleration - opposing) / self.moment(ACCELERATION)?)
     }
 
     /// Tension difference times radius over the driven pulley's torque.
@@ -229,14 +232,10 @@ fn balances(name: &str, loaded: &Loaded) -> Result<Quantities, CaseError> {
         ),
         (
             format!("torque over moment of the spans' tensions, {name}"),
-            loaded.moment_balance(STEADY)?,
+            loaded.moment_balance()?,
         ),
         (
-            format!("torque over moment of the spans' tensions in the ramp, {name}"),
-            loaded.moment_balance(ACCELERATION)?,
-        ),
-        (
-            format!("torque over load and inertia in the ramp, {name}"),
+            format!("load and inertia over moment of the spans' tensions in the ramp, {name}"),
             loaded.acceleration_balance()?,
         ),
         (
