@@ -14,19 +14,19 @@
 //! proportional to the number of sections, [`SparseSolver`] is the general path through `faer` for matrices that need pivots across sections.
 
 mod block_size;
-mod compressed;
 mod cyclic;
 mod dense_inverse;
 mod elimination;
 mod kernel;
 mod matrix;
+mod panels;
 mod sparse;
 mod tail;
 
-pub use compressed::CompressedRows;
 pub use cyclic::CyclicSolver;
 pub use dense_inverse::DenseInverse;
 pub use matrix::{BorderedMatrix, Structure};
+pub use panels::SectionPanels;
 pub use sparse::SparseSolver;
 
 /// The matrix has no inverse within rounding.

@@ -181,17 +181,7 @@ impl<E: Element> Mesh<E> {
 
     /// Power [W] that internal damping takes in the state `(q, v)`.
     pub fn damping_power(&self, q: &[f64], v: &[f64]) -> f64 {
-        let [mut e, mut rate, mut force] = [[0.0; MOST_DOF]; 3];
-        let (e, rate, force) = (&mut e[..E::DOF], &mut rate[..E::DOF], &mut force[..E::DOF]);
-        let mut power = 0.0;
-        for (i, element) in self.elements.iter().enumerate() {
-            self.gather(i, q, e);
-            self.gather(i, v, rate);
-            force.fill(0.0);
-            element.add_damping_force(e, rate, force);
-            power -= rate.iter().zip(&*force).map(|(a, b)| a * b).sum::<f64>();
-        }
-        power
+        E::body_damping_power(self, q, v)
     }
 
     /// Adds elastic and internal damping forces of the state `(q, v)` to `f`.

@@ -15,7 +15,7 @@ use std::fmt;
 
 use crate::constraint::ConstraintSet;
 use crate::element::Element;
-use crate::linear::{BorderedMatrix, CompressedRows, Structure};
+use crate::linear::{BorderedMatrix, SectionPanels, Structure};
 use crate::mesh::Mesh;
 
 /// Time, coordinates and velocities.
@@ -134,7 +134,7 @@ pub struct System<E, L> {
     pub law: L,
     structure: Structure,
     mass: BorderedMatrix,
-    compressed_mass: CompressedRows,
+    mass_panels: SectionPanels,
     constant_force: Vec<f64>,
     prescribed: Vec<(usize, Box<dyn Motion>)>,
     scales: Vec<f64>,
@@ -165,7 +165,7 @@ impl<E: Element, L: ForceLaw> System<E, L> {
             mesh,
             law,
             structure,
-            compressed_mass: CompressedRows::new(&mass),
+            mass_panels: SectionPanels::new(&mass),
             mass,
             constant_force: vec![0.0; structure.size()],
             prescribed,
@@ -182,7 +182,7 @@ impl<E: Element, L: ForceLaw> System<E, L> {
         for (row, column, value) in self.mass.triplets().filter(|(_, _, value)| *value != 0.0) {
             mass.add(row, column, value);
         }
-        self.compressed_mass = CompressedRows::new(&mass);
+        self.mass_panels = SectionPanels::new(&mass);
         self.mass = mass;
         self.constant_force.resize(self.structure.size(), 0.0);
         self.scales.resize(self.structure.size(), 0.0);
@@ -217,7 +217,7 @@ impl<E: Element, L: ForceLaw> System<E, L> {
 
     /// Kinetic energy [J].
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
-        0.5 * self.compressed_mass.quadratic(v)
+        0.5 * self.mass_panels.quadratic(v)
     }
 
     /// Strain energy [J] of the flexible body.

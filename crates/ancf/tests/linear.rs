@@ -1,7 +1,8 @@
 //! The bordered matrix and both solvers: closed forms, properties, comparison with each other.
 
 use ancf::linear::{
-    BorderedMatrix, CyclicSolver, DenseInverse, Singular, Solver, SparseSolver, Structure,
+    BorderedMatrix, CyclicSolver, DenseInverse, SectionPanels, Singular, Solver, SparseSolver,
+    Structure,
 };
 use proptest::prelude::*;
 
@@ -304,6 +305,12 @@ proptest! {
         matrix.multiply(&x, &mut product);
         let terms = structure.size() as f64;
         assert_close(&product, &sum, terms * terms * EPSILON);
+        product.fill(1.0);
+        let mut panels = SectionPanels::new(&matrix);
+        panels.multiply(&x, &mut product);
+        assert_close(&product, &sum, terms * terms * EPSILON);
+        let form: f64 = x.iter().zip(&sum).map(|(x, y)| x * y).sum();
+        assert!((panels.quadratic(&x) - form).abs() <= terms * terms * terms * EPSILON);
     }
 
     /// A unit row returns its right-hand side, whatever the other rows say: exact but for the

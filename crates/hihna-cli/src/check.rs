@@ -130,7 +130,7 @@ fn motion(pulley: &Pulley) -> &'static str {
     match (&pulley.speed, &pulley.angle) {
         (Some(_), _) => "prescribed speed",
         (_, Some(_)) => "prescribed angle",
-        _ if pulley.torque.is_zero() => "free",
+        _ if pulley.torque.is_zero() && pulley.load.is_none() => "free",
         _ => "free, with torque",
     }
 }

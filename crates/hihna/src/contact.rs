@@ -147,10 +147,11 @@ pub struct BeltContact {
     rule: Rule,
     /// Whether the last element ends in the first node, or in one of its own that joins it.
     closed: bool,
-    /// Coordinates and vectors of a node.
+    /// Coordinates of a node.
     node_dof: usize,
-    node_vectors: usize,
     line: Line,
+    /// First coordinate of each vector of the contact line, by element.
+    places: Vec<[usize; MAX_VECTORS]>,
     /// Greatest distance of a contact line from the centre line [m].
     highest: f64,
     /// Which contact line touches each pulley.
@@ -218,7 +219,7 @@ impl BeltContact {
             rule,
             closed: mesh.is_closed(),
             node_dof: E::NODE_DOF,
-            node_vectors: E::NODE_VECTORS,
+            places: places(mesh, &line),
             line,
             highest,
             line_of,
@@ -272,19 +273,6 @@ impl BeltContact {
         (self.kind_of.len() + usize::from(!self.closed)) * self.node_dof
     }
 
-    /// First coordinate of the node of local vector `vector` of `element`.
-    #[inline(always)]
-    fn coordinate(&self, element: usize, vector: usize) -> usize {
-        let node = if vector < self.node_vectors {
-            element
-        } else if self.closed && element + 1 == self.kind_of.len() {
-            0
-        } else {
-            element + 1
-        };
-        node * self.node_dof + (vector % self.node_vectors) * 2
-    }
-
     /// Torque, hub force, slip and power on every pulley.
     pub fn resultants(&self, state: State<'_>, out: &mut [PulleyContact]) {
         out.fill(PulleyContact::default());
@@ -305,14 +293,11 @@ impl BeltContact {
         points.clear();
         let centre = self.lines - 1;
         for element in 0..self.kind_of.len() {
-            let mut at = [0; MAX_VECTORS];
-            for (slot, vector) in self.line.vectors.iter().enumerate() {
-                at[slot] = self.coordinate(element, *vector);
-            }
+            let at = &self.places[element];
             for (k, xi) in self.rule.points.iter().enumerate() {
                 let (batch, lane) = (k / LANES, k % LANES);
                 let on_line = |line: usize| {
-                    let shape = &self.table(element, line).batches[batch].by_lane[lane];
+                    let shape = &self.table(element, line).batches[batch].by_lane[lane].0;
                     let (mut r, mut v) = ([0.0; 2], [0.0; 2]);
                     for (slot, at) in at[..self.line.vectors.len()].iter().enumerate() {
                         for axis in 0..2 {
@@ -360,6 +345,23 @@ impl BeltContact {
         let (x, y) = (bristles.x[lane] * stands, bristles.y[lane] * stands);
         Some([c * x - s * y, s * x + c * y])
     }
+}
+
+/// First coordinate of each vector of `line`, by element of `mesh`.
+fn places<E: LineElement>(mesh: &Mesh<E>, line: &Line) -> Vec<[usize; MAX_VECTORS]> {
+    let place = |element: usize, vector: usize| {
+        let node = mesh.node(element, vector / E::NODE_VECTORS);
+        node * E::NODE_DOF + vector % E::NODE_VECTORS * E::DIMENSION
+    };
+    (0..mesh.elements().len())
+        .map(|element| {
+            let mut places = [0; MAX_VECTORS];
+            for (to, vector) in places.iter_mut().zip(&line.vectors) {
+                *to = place(element, *vector);
+            }
+            places
+        })
+        .collect()
 }
 
 impl ForceLaw for BeltContact {

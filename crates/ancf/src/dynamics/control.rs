@@ -33,6 +33,9 @@ const AFTER_A_JUMP: usize = 32;
 const MOST_STEPS: f64 = 1.0e11;
 /// Good steps before the step is doubled.
 const PATIENCE: usize = 3;
+/// Error of a good step, by the accepted one: predictions err with the square of the step, so that a step twice as
+/// long is just accepted.
+const GOOD: f64 = 0.25;
 /// Halvings that an observer may ask for beyond what errors of prediction call for.
 const MOST_ASKED: u32 = 6;
 
@@ -280,7 +283,7 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
                     good = 0;
                     continue;
                 }
-                may_double = error < 0.4;
+                may_double = error < GOOD;
             }
             settling = settling.saturating_sub(1);
             grid.advance();

@@ -19,7 +19,7 @@ use thiserror::Error;
 
 use super::{Motion, Statistics};
 use crate::constraint::ConstraintSet;
-use crate::linear::{BorderedMatrix, CompressedRows, CyclicSolver, DenseInverse, Solver};
+use crate::linear::{BorderedMatrix, CyclicSolver, DenseInverse, SectionPanels, Solver};
 use crate::norm::VectorNorm;
 use crate::system::{Mechanics, State};
 
@@ -70,7 +70,7 @@ pub struct StageBase {
 #[derive(Debug)]
 pub struct Stage {
     tolerance: f64,
-    mass: CompressedRows,
+    mass: SectionPanels,
     matrix: BorderedMatrix,
     solver: CyclicSolver,
     mass_solver: CyclicSolver,
@@ -109,7 +109,7 @@ impl Stage {
         }
         Self {
             tolerance,
-            mass: CompressedRows::new(system.mass()),
+            mass: SectionPanels::new(system.mass()),
             matrix: BorderedMatrix::new(structure),
             solver: CyclicSolver::new(structure),
             mass_solver: CyclicSolver::new(structure),

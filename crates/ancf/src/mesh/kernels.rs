@@ -13,6 +13,9 @@ pub trait BodyKernels: Sized {
     /// Strain energy [J] of the configuration `q`.
     fn body_energy(mesh: &Mesh<Self>, q: &[f64]) -> f64;
 
+    /// Power [W] that internal damping takes in the state `(q, v)`.
+    fn body_damping_power(mesh: &Mesh<Self>, q: &[f64], v: &[f64]) -> f64;
+
     /// Adds elastic and internal damping forces of the state `(q, v)` to `f`.
     fn add_body_force(mesh: &Mesh<Self>, q: &[f64], v: &[f64], f: &mut [f64]);
 
@@ -36,6 +39,11 @@ macro_rules! body_kernels {
             #[inline(never)]
             fn body_energy(mesh: &$crate::mesh::Mesh<Self>, q: &[f64]) -> f64 {
                 $crate::mesh::kernels::energy(mesh, q)
+            }
+
+            #[inline(never)]
+            fn body_damping_power(mesh: &$crate::mesh::Mesh<Self>, q: &[f64], v: &[f64]) -> f64 {
+                $crate::mesh::kernels::damping_power(mesh, q, v)
             }
 
             #[inline(never)]
@@ -67,6 +75,11 @@ macro_rules! body_kernels {
 /// [`BodyKernels::body_energy`] of any element.
 pub fn energy<E: Element>(mesh: &Mesh<E>, q: &[f64]) -> f64 {
     dispatch(Energy { mesh, q })
+}
+
+/// [`BodyKernels::body_damping_power`] of any element.
+pub fn damping_power<E: Element>(mesh: &Mesh<E>, q: &[f64], v: &[f64]) -> f64 {
+    dispatch(DampingPower { mesh, q, v })
 }
 
 /// [`BodyKernels::add_body_force`] of any element.
@@ -134,6 +147,45 @@ impl<E: Element> Energy<'_, E> {
             energy += lanes[..batch.count].iter().sum::<f64>();
         }
         energy
+    }
+}
+
+/// The work of [`Mesh::damping_power`].
+struct DampingPower<'a, E> {
+    mesh: &'a Mesh<E>,
+    q: &'a [f64],
+    v: &'a [f64],
+}
+
+impl<E: Element> LaneKernel for DampingPower<'_, E> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<S: EightLanes>(self) -> f64 {
+        with_element_size!(self, S, E)
+    }
+}
+
+impl<E: Element> DampingPower<'_, E> {
+    #[inline(always)]
+    fn sized<S: EightLanes, const N: usize>(self) -> f64 {
+        let mut power = 0.0;
+        for batch in self.mesh.batches() {
+            let element = &self.mesh.elements[batch.first];
+            if !element.is_damped() {
+                continue;
+            }
+            let e = self.mesh.load::<S, N>(batch, self.q);
+            let rate = self.mesh.load::<S, N>(batch, self.v);
+            let mut force = [S::zero(); N];
+            element.add_damping_force(&e[..E::DOF], &rate[..E::DOF], &mut force[..E::DOF]);
+            let mut taken = S::zero();
+            for (force, rate) in force.iter().zip(&rate) {
+                taken -= *force * *rate;
+            }
+            power += taken.store()[..batch.count].iter().sum::<f64>();
+        }
+        power
     }
 }
 

@@ -1,7 +1,7 @@
 //! The loops over batches of contact points, compiled for SIMD registers.
 
 use ancf::linear::BorderedMatrix;
-use ancf::scalar::{EightLanes, LaneKernel};
+use ancf::scalar::{EightLanes, LaneKernel, Lanes};
 use ancf::system::State;
 
 use super::memory::Bristles;
@@ -28,6 +28,12 @@ impl<S: EightLanes> Batch<'_, S> {
     fn weight(&self) -> S {
         S::load(&self.table.weight)
     }
+
+    /// Whether any of the points touches the pulley.
+    #[inline(always)]
+    fn touches(&self) -> bool {
+        self.contact.penetration.store().iter().any(|d| *d > 0.0)
+    }
 }
 
 /// Runs `work` for every batch of points of an element that may touch a pulley.
@@ -41,10 +47,9 @@ fn for_contacts<S: EightLanes>(
     let rotors = contact.rotors();
     let batches = contact.batches();
     for element in 0..contact.kind_of.len() {
-        let mut at = [0; MAX_VECTORS];
+        let at = &contact.places[element];
         let mut position = [[0.0; 2]; MAX_VECTORS];
-        for (slot, vector) in contact.line.vectors.iter().enumerate() {
-            at[slot] = contact.coordinate(element, *vector);
+        for slot in 0..count {
             position[slot] = [state.q[at[slot]], state.q[at[slot] + 1]];
         }
         let (middle, reach) = contact.hull(element, &position);
@@ -64,7 +69,7 @@ fn for_contacts<S: EightLanes>(
                     |x| S::constant(0.0 - x),
                 );
                 for slot in 0..count {
-                    let shape = S::load(&table.shape[slot]);
+                    let shape = S::load(&table.shape[slot].0);
                     for axis in 0..2 {
                         r[axis] += shape * position[slot][axis];
                         v[axis] += shape * state.v[at[slot] + axis];
@@ -88,7 +93,7 @@ fn for_contacts<S: EightLanes>(
                     index,
                     pulley: p,
                     speed,
-                    at: &at,
+                    at,
                     table,
                     contact: PointContact::new(&contact.penalty, pulley, &meeting),
                 });
@@ -113,29 +118,18 @@ fn sum<S: EightLanes>(x: S) -> f64 {
     ((a + b) + (c + d)) + ((e + f) + (g + h))
 }
 
-/// Turns values by kind and lane into values by lane and kind.
+/// `sum over lanes of factor[lane] * values[lane]`, in two sums that do not wait for each other.
 #[inline(always)]
-fn by_lane<S: EightLanes, const N: usize>(values: [S; N]) -> [[f64; N]; LANES] {
-    let mut out = [[0.0; N]; LANES];
-    for i in 0..N {
-        let stored = values[i].store();
-        for lane in 0..LANES {
-            out[lane][i] = stored[lane];
-        }
+fn contract<S: EightLanes>(factor: S, values: &[Lanes<LANES>; LANES]) -> [f64; LANES] {
+    let factor = factor.store();
+    let mut sums = [
+        S::load(&values[0].0) * factor[0],
+        S::load(&values[1].0) * factor[1],
+    ];
+    for lane in 2..LANES {
+        sums[lane % 2] += S::load(&values[lane].0) * factor[lane];
     }
-    out
-}
-
-/// `sum over lanes of factor[lane] * values[lane]`.
-#[inline(always)]
-fn contract<const N: usize>(factor: &[f64; LANES], values: &[[f64; N]; LANES]) -> [f64; N] {
-    let mut out = [0.0; N];
-    for lane in 0..LANES {
-        for i in 0..N {
-            out[i] += factor[lane] * values[lane][i];
-        }
-    }
-    out
+    (sums[0] + sums[1]).store()
 }
 
 /// The work of [`BeltContact::resultants`].
@@ -156,6 +150,9 @@ impl LaneKernel for Resultants<'_> {
             self.state,
             #[inline(always)]
             |batch| {
+                if !batch.touches() {
+                    return;
+                }
                 let radius = this.pulleys[batch.pulley].radius;
                 let contact = &batch.contact;
                 let weight = contact
@@ -201,12 +198,15 @@ impl LaneKernel for AddForce<'_> {
             self.state,
             #[inline(always)]
             |batch| {
+                if !batch.touches() {
+                    return;
+                }
                 let weight = batch.weight();
                 let f = batch.contact.force();
                 let torque = batch.contact.torque(this.pulleys[batch.pulley].radius);
                 force[rotors + batch.pulley] += sum(torque * weight);
-                let x = contract(&(f[0] * weight).store(), &batch.table.by_lane);
-                let y = contract(&(f[1] * weight).store(), &batch.table.by_lane);
+                let x = contract(f[0] * weight, &batch.table.by_lane);
+                let y = contract(f[1] * weight, &batch.table.by_lane);
                 for slot in 0..count {
                     force[batch.at[slot]] += x[slot];
                     force[batch.at[slot] + 1] += y[slot];
@@ -241,13 +241,16 @@ impl LaneKernel for AddTangent<'_> {
             matrix,
         } = self;
         let dof = 2 * this.node_dof;
-        let vectors = &this.line.vectors;
+        let count = this.line.vectors.len();
+        let pairs = &this.line.pairs;
+        // What every batch writes to is the same part of the matrix.
+        local.fill(0.0);
         for_contacts::<S>(
             this,
             state,
             #[inline(always)]
             |batch| {
-                if batch.contact.penetration.store().iter().all(|d| *d <= 0.0) {
+                if !batch.touches() {
                     return;
                 }
                 let weight = batch.weight();
@@ -255,33 +258,32 @@ impl LaneKernel for AddTangent<'_> {
                 let tangent = batch
                     .contact
                     .tangent(radius, position_factor, velocity_factor);
-                let blocks = by_lane(tangent.force.map(
-                    #[inline(always)]
-                    |x| x * weight,
-                ));
-                let [fx, fy] = tangent.force_by_pulley;
-                let [tx, ty] = tangent.torque;
-                let border = by_lane([fx, fy, tx, ty].map(
-                    #[inline(always)]
-                    |x| x * weight,
-                ));
-                local.fill(0.0);
-                let mut pair = 0;
-                for (a, row) in vectors.iter().enumerate() {
-                    for column in &vectors[a..] {
-                        let block = contract(&batch.table.products[pair], &blocks);
-                        pair += 1;
+                let [xx, xy, yx, yy] = tangent.force;
+                let mut pairs = pairs.iter();
+                for products in &batch.table.products {
+                    let blocks = [xx, xy, yx, yy].map(
+                        #[inline(always)]
+                        |entry| contract(entry * weight, products),
+                    );
+                    for (k, [row, column]) in pairs.by_ref().take(LANES).enumerate() {
                         for (row, column) in [(row, column), (column, row)] {
                             let at = 2 * row * dof + 2 * column;
-                            local[at] = block[0];
-                            local[at + 1] = block[1];
-                            local[at + dof] = block[2];
-                            local[at + dof + 1] = block[3];
+                            local[at] = blocks[0][k];
+                            local[at + 1] = blocks[1][k];
+                            local[at + dof] = blocks[2][k];
+                            local[at + dof + 1] = blocks[3][k];
                         }
                     }
-                    let [fx, fy, tx, ty] = contract(&batch.table.shape[a], &border);
-                    matrix.add_border_column(batch.pulley, batch.at[a], &[fx, fy]);
-                    matrix.add_border_row(batch.pulley, batch.at[a], &[tx, ty]);
+                }
+                let [fx, fy] = tangent.force_by_pulley;
+                let [tx, ty] = tangent.torque;
+                let [fx, fy, tx, ty] = [fx, fy, tx, ty].map(
+                    #[inline(always)]
+                    |entry| contract(entry * weight, &batch.table.by_lane),
+                );
+                for (slot, at) in batch.at[..count].iter().enumerate() {
+                    matrix.add_border_column(batch.pulley, *at, &[fx[slot], fy[slot]]);
+                    matrix.add_border_row(batch.pulley, *at, &[tx[slot], ty[slot]]);
                 }
                 matrix.add_pair(batch.element, 1.0, local);
                 matrix.add_corner(

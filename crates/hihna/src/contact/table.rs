@@ -2,6 +2,7 @@
 
 use ancf::element::LineElement;
 use ancf::quadrature::Rule;
+use ancf::scalar::Lanes;
 
 /// Integration points computed side by side.
 pub(super) const LANES: usize = 8;
@@ -16,6 +17,8 @@ pub(super) struct Line {
     pub vectors: Vec<usize>,
     /// How many of them belong to the centre line: two for a straight one, four for a cubic.
     pub centre: usize,
+    /// Local vectors of the slots `a <= b` in the order `(0, 0), (0, 1), ..., (1, 1), ...`.
+    pub pairs: Vec<[usize; 2]>,
 }
 
 impl Line {
@@ -25,11 +28,20 @@ impl Line {
         if y != 0.0 {
             vectors.extend(E::SECTION_VECTORS);
         }
+        let pairs = slot_pairs(vectors.len())
+            .map(|pair| pair.map(|slot| vectors[slot]))
+            .collect();
         Self {
             vectors,
             centre: E::CENTRE_VECTORS.len(),
+            pairs,
         }
     }
+}
+
+/// Pairs `a <= b` of so many slots, row by row.
+fn slot_pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
+    (0..count).flat_map(move |a| (a..count).map(move |b| [a, b]))
 }
 
 /// Shape functions at the points of one kind of element, at one height over the centre line.
@@ -44,26 +56,26 @@ pub(super) struct Table {
 #[derive(Clone, Debug)]
 pub(super) struct BatchTable {
     /// By slot, by lane.
-    pub shape: [[f64; LANES]; MAX_VECTORS],
+    pub shape: [Lanes<LANES>; MAX_VECTORS],
     /// The same by lane, by slot, padded with zeros.
-    pub by_lane: [[f64; LANES]; LANES],
+    pub by_lane: [Lanes<LANES>; LANES],
     /// Quadrature weight times length [m], by lane.
     pub weight: [f64; LANES],
-    /// Products of the shape functions of slots `a <= b`, by lane: `(0, 0), (0, 1), ..., (1, 1), ...`.
-    pub products: Vec<[f64; LANES]>,
+    /// Products of the shape functions of the pairs of [`Line::pairs`], eight at a time: by lane, by pair, padded
+    /// with zeros.
+    pub products: Vec<[Lanes<LANES>; LANES]>,
 }
 
 impl Table {
     pub fn new<E: LineElement>(element: &E, line: &Line, rule: &Rule, height: f64) -> Self {
-        let count = line.vectors.len();
-        let zero = [0.0; LANES];
+        let zero = Lanes([0.0; LANES]);
         let mut weights = vec![0.0; E::NODES * E::NODE_VECTORS];
         let batches = (0..rule.points.len().div_ceil(LANES))
             .map(|batch| {
                 let mut table = BatchTable {
                     shape: [zero; MAX_VECTORS],
                     by_lane: [zero; LANES],
-                    weight: zero,
+                    weight: zero.0,
                     products: Vec::new(),
                 };
                 for lane in 0..LANES {
@@ -76,19 +88,22 @@ impl Table {
                         weights[second] += height * xi;
                     }
                     for (slot, vector) in line.vectors.iter().enumerate() {
-                        table.shape[slot][lane] = weights[*vector];
-                        table.by_lane[lane][slot] = weights[*vector];
+                        table.shape[slot].0[lane] = weights[*vector];
+                        table.by_lane[lane].0[slot] = weights[*vector];
                     }
                     if k < rule.points.len() {
                         table.weight[lane] = rule.weights[k] * element.length();
                     }
                 }
-                for a in 0..count {
-                    for b in a..count {
-                        table.products.push(std::array::from_fn(|lane| {
-                            table.shape[a][lane] * table.shape[b][lane]
-                        }));
+                let pairs: Vec<_> = slot_pairs(line.vectors.len()).collect();
+                for pairs in pairs.chunks(LANES) {
+                    let mut group = [zero; LANES];
+                    for (k, [a, b]) in pairs.iter().enumerate() {
+                        for lane in 0..LANES {
+                            group[lane].0[k] = table.shape[*a].0[lane] * table.shape[*b].0[lane];
+                        }
                     }
+                    table.products.push(group);
                 }
                 table
             })
