@@ -364,8 +364,8 @@ fn a_small_matrix_may_be_inverted_whole() {
         assert_eq!(inverse.is_some(), exists);
         for mut inverse in inverse {
             let right = numbers.take(structure.size());
-            let (mut by_inverse, mut by_factor) = (right.clone(), right);
-            inverse.solve(&mut by_inverse);
+            let (mut by_inverse, mut by_factor) = (vec![0.0; right.len()], right.clone());
+            inverse.solve(&right, &mut by_inverse);
             solver.solve(&mut by_factor);
             assert_close(&by_inverse, &by_factor, 16.0 * EPSILON);
         }

@@ -34,30 +34,23 @@ impl Scheme for RungeKutta4 {
         step: f64,
         to: &mut Motion,
     ) -> Result<(), NotConverged> {
-        let size = from.q.len();
         let trial = &mut self.trial;
         trial.copy_from(from);
         self.velocity_sum.copy_from_slice(&trial.v);
         self.acceleration_sum.copy_from_slice(&trial.a);
         for (fraction, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
             let h = fraction * step;
-            for i in 0..size {
-                // trial.v and trial.a are still those of the stage before
-                trial.q[i] = from.q[i] + h * trial.v[i];
-                trial.v[i] = from.v[i] + h * trial.a[i];
-            }
+            // trial.v and trial.a are still those of the stage before
+            advance(&mut trial.q, &from.q, h, &trial.v);
+            advance(&mut trial.v, &from.v, h, &trial.a);
             trial.time = from.time + h;
             stage.accelerations(system, trial);
-            for i in 0..size {
-                self.velocity_sum[i] += weight * trial.v[i];
-                self.acceleration_sum[i] += weight * trial.a[i];
-            }
+            add(&mut self.velocity_sum, weight, &trial.v);
+            add(&mut self.acceleration_sum, weight, &trial.a);
         }
         to.time = from.time + step;
-        for i in 0..size {
-            to.q[i] = from.q[i] + step / 6.0 * self.velocity_sum[i];
-            to.v[i] = from.v[i] + step / 6.0 * self.acceleration_sum[i];
-        }
+        advance(&mut to.q, &from.q, step / 6.0, &self.velocity_sum);
+        advance(&mut to.v, &from.v, step / 6.0, &self.acceleration_sum);
         stage.accelerations(system, to);
         to.algorithmic.copy_from_slice(&to.a);
         if to.a.iter().all(|x| x.is_finite()) {
@@ -65,5 +58,19 @@ impl Scheme for RungeKutta4 {
         } else {
             Err(NotConverged::diverged(to.time))
         }
+    }
+}
+
+/// `to = from + h rate`.
+fn advance(to: &mut [f64], from: &[f64], h: f64, rate: &[f64]) {
+    for ((to, from), rate) in to.iter_mut().zip(from).zip(rate) {
+        *to = from + h * rate;
+    }
+}
+
+/// `sum += weight x`.
+fn add(sum: &mut [f64], weight: f64, x: &[f64]) {
+    for (sum, x) in sum.iter_mut().zip(x) {
+        *sum += weight * x;
     }
 }

@@ -163,23 +163,23 @@ impl Stage {
             self.force[*index] = motion.a[*index];
         }
         if self.mass_factored {
-            self.solve_for_accelerations();
-            motion.a.copy_from_slice(&self.force);
+            self.solve_for_accelerations(&mut motion.a);
         } else {
             motion.a.fill(f64::NAN);
         }
     }
 
-    /// Replaces the force by the accelerations. The inverse costs as many solutions as there are unknowns.
-    fn solve_for_accelerations(&mut self) {
+    /// Writes the accelerations by the force. The inverse costs as many solutions as there are unknowns.
+    fn solve_for_accelerations(&mut self, accelerations: &mut [f64]) {
         if let Some(inverse) = &mut self.mass_inverse {
-            inverse.solve(&mut self.force);
+            inverse.solve(&self.force, accelerations);
             return;
         }
-        self.mass_solver.solve(&mut self.force);
+        accelerations.copy_from_slice(&self.force);
+        self.mass_solver.solve(accelerations);
         self.mass_solutions += 1;
-        if self.mass_solutions == self.force.len() {
-            self.mass_inverse = DenseInverse::new(&mut self.mass_solver, self.force.len());
+        if self.mass_solutions == accelerations.len() {
+            self.mass_inverse = DenseInverse::new(&mut self.mass_solver, accelerations.len());
         }
     }
 

@@ -39,15 +39,15 @@ impl DenseInverse {
         })
     }
 
-    /// Replaces the right-hand side `x` by the solution.
-    pub fn solve(&mut self, x: &mut [f64]) {
+    /// Writes the solution for the right-hand side `right` to `solution`.
+    pub fn solve(&mut self, right: &[f64], solution: &mut [f64]) {
         self.product.fill(0.0);
         Arch::new().dispatch(Product {
             columns: &self.columns,
-            x: &x[..self.size],
+            x: &right[..self.size],
             sum: &mut self.product[..self.stride],
         });
-        x.copy_from_slice(&self.product[..self.size]);
+        solution.copy_from_slice(&self.product[..self.size]);
     }
 }
 

@@ -223,8 +223,8 @@ impl<E: Element> AddForce<'_, E> {
                 *lanes = value.store();
             }
             for lane in 0..batch.count {
-                let local: [f64; N] = std::array::from_fn(|i| stored[i][lane]);
-                self.mesh.scatter(batch.first + lane, &local, self.f);
+                self.mesh
+                    .scatter_lane(batch.first + lane, &stored, lane, self.f);
             }
         }
     }
