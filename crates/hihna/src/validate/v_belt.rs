@@ -81,6 +81,8 @@ const OVERLOADED: [&str; 9] = [
 
 /// Passage of two elements after the onset of slip [s].
 const PASSAGE: f64 = 0.01;
+/// Part of the contact that slips where all does: one of its 50 points is two hundredths of it.
+const WHOLE: f64 = 0.99;
 
 struct Overload {
     name: &'static str,
@@ -150,13 +152,14 @@ fn onset(overload: &Overload) -> Result<Quantities, CaseError> {
         .flat_map(|line| [line, "\n"])
         .collect();
     let run = TimeRun::new(&unloaded, &changes)?;
-    // The slip arc has grown over the whole wrap, and stays there.
+    // All of the contact slips, and goes on to.
     let (times, slips) = (run.column("time")?, run.column("driver.slip_angle")?);
+    let contacts = run.column("driver.contact_angle")?;
     let wrap = run.outcome.layout.arcs[0].sweep;
     let lasting = |first: usize| {
         let until = times[first] + PASSAGE;
-        let mut rows = times[first..].iter().zip(&slips[first..]);
-        until < times[times.len() - 1] && rows.all(|(time, slip)| *time > until || *slip > wrap)
+        let mut rows = (first..times.len()).take_while(|row| times[*row] <= until);
+        until < times[times.len() - 1] && rows.all(|row| slips[row] > WHOLE * contacts[row])
     };
     let start = (0..times.len())
         .find(|first| times[*first] > 0.12 && lasting(*first))
