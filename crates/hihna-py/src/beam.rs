@@ -257,6 +257,10 @@ impl NativeBeam {
         each!(&self.structure, s => linear_displacements(py, s, &self.raised))
     }
 
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python's arguments are owned"
+    )]
     fn axial_forces<'py>(
         &self,
         py: Python<'py>,
@@ -273,6 +277,10 @@ impl NativeBeam {
         each!(&self.structure, s => modes(py, s, about, &self.raised))
     }
 
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python's arguments are owned"
+    )]
     fn integrate<'py>(&self, py: Python<'py>, course: Course<'py>) -> PyResult<Bound<'py, PyDict>> {
         each!(&self.structure, s => motion(py, s, &course, &self.raised))
     }

@@ -145,6 +145,10 @@ impl NativePlate {
         linear_displacements(py, &self.structure, &Raised::default())
     }
 
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python's arguments are owned"
+    )]
     fn membrane_forces<'py>(
         &self,
         py: Python<'py>,
@@ -161,6 +165,10 @@ impl NativePlate {
         modes(py, &self.structure, about, &Raised::default())
     }
 
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python's arguments are owned"
+    )]
     fn integrate<'py>(&self, py: Python<'py>, course: Course<'py>) -> PyResult<Bound<'py, PyDict>> {
         motion(py, &self.structure, &course, &Raised::default())
     }
