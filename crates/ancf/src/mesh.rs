@@ -139,14 +139,20 @@ impl<E: Element> Mesh<E> {
         }
     }
 
-    /// Adds the element vector in the lane `lane` of `stored` to `f`.
+    /// Adds the element vector `local` to `f`.
+    #[inline]
+    pub fn scatter(&self, element: usize, local: &[f64], f: &mut [f64]) {
+        self.scatter_entries(element, |i| local[i], f);
+    }
+
+    /// Adds the element vector of entries `entry` to `f`.
     #[inline(always)]
-    fn scatter_lane(&self, element: usize, stored: &[[f64; LANES]], lane: usize, f: &mut [f64]) {
+    fn scatter_entries(&self, element: usize, entry: impl Fn(usize) -> f64, f: &mut [f64]) {
         let n = E::NODE_DOF;
         for k in 0..E::NODES {
             let first = self.node(element, k) * n;
-            for (value, lanes) in f[first..first + n].iter_mut().zip(&stored[k * n..]) {
-                *value += lanes[lane];
+            for (i, value) in f[first..first + n].iter_mut().enumerate() {
+                *value += entry(k * n + i);
             }
         }
     }

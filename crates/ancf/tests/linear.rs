@@ -362,7 +362,7 @@ fn a_small_matrix_may_be_inverted_whole() {
         solver.factor(&matrix).unwrap();
         let inverse = DenseInverse::new(&mut solver, structure.size());
         assert_eq!(inverse.is_some(), exists);
-        for mut inverse in inverse {
+        if let Some(mut inverse) = inverse {
             let right = numbers.take(structure.size());
             let (mut by_inverse, mut by_factor) = (vec![0.0; right.len()], right.clone());
             inverse.solve(&right, &mut by_inverse);

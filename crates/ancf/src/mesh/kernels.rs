@@ -224,7 +224,7 @@ impl<E: Element> AddForce<'_, E> {
             }
             for lane in 0..batch.count {
                 self.mesh
-                    .scatter_lane(batch.first + lane, &stored, lane, self.f);
+                    .scatter_entries(batch.first + lane, |i| stored[i][lane], self.f);
             }
         }
     }
