@@ -34,7 +34,7 @@ pub use prescribed::{Constant, SpinUp, TurnedComponent};
 use thiserror::Error;
 
 use crate::linear::{BorderedMatrix, Structure};
-use crate::system::State;
+use crate::state::State;
 use linear::ReducedEquation;
 
 /// How constraints enter the equations.

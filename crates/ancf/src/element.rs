@@ -17,6 +17,7 @@ mod hermite;
 mod plane_section;
 mod plate_thin;
 mod space_section;
+mod vector;
 
 pub use beam2_belt::BeltBeam2;
 pub use beam2_cubic::{CubicBeam2, FoldedReference};

@@ -16,6 +16,7 @@ pub mod norm;
 pub mod quadrature;
 pub mod scalar;
 pub mod section;
+mod state;
 pub mod statics;
 pub mod strain;
 pub mod structure;

@@ -17,6 +17,7 @@ mod block_size;
 mod cyclic;
 mod dense_inverse;
 mod elimination;
+mod factor;
 mod kernel;
 mod matrix;
 mod panels;

@@ -24,6 +24,7 @@
 //! global axes, however the beam is drawn.
 
 mod build;
+mod finite;
 mod free_motion;
 mod modes;
 mod plate;

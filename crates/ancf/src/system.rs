@@ -11,23 +11,12 @@
 //! border: in a vector of accelerations the value there is the multiplier, in coordinates and
 //! velocities it is zero.
 
-use std::fmt;
-
 use crate::constraint::ConstraintSet;
 use crate::element::Element;
 use crate::linear::{BorderedMatrix, SectionPanels, Structure};
 use crate::mesh::Mesh;
 
-/// Time, coordinates and velocities.
-#[derive(Clone, Copy, Debug)]
-pub struct State<'a> {
-    /// Time [s].
-    pub time: f64,
-    /// Coordinates.
-    pub q: &'a [f64],
-    /// Velocities.
-    pub v: &'a [f64],
-}
+pub use crate::state::{Motion, State};
 
 /// What integrators and statics need to know of a system.
 pub trait Mechanics {
@@ -80,12 +69,6 @@ pub trait Mechanics {
             constraints.enforce(time, q, v, a);
         }
     }
-}
-
-/// A prescribed motion of one coordinate.
-pub trait Motion: fmt::Debug + Send + Sync {
-    /// Position, velocity and acceleration at `time`; right-hand values at kinks.
-    fn at(&self, time: f64) -> [f64; 3];
 }
 
 /// Forces beyond the body's own elasticity: contact, loads, springs.

@@ -18,8 +18,6 @@ use miette::{
 use serde_json::{Value, json};
 use thiserror::Error;
 
-use crate::standard_output;
-
 /// Why the program did not do what it was asked.
 #[derive(Debug, Error)]
 pub enum Failure {
@@ -117,16 +115,14 @@ impl Failure {
         }
     }
 
-    /// Prints the failure to standard output as the one JSON object of the command.
-    pub fn print_json(&self) {
+    /// The failure as the one JSON object of the command; `None` where a summary is there already, and says so.
+    pub fn json(&self) -> Option<Value> {
         let errors: Vec<Value> = match self {
             Self::Input(errors) => errors.iter().map(input_error_json).collect(),
-            // The summary is there already, and says so.
-            Self::Audit { .. } | Self::Validation { .. } | Self::Output(_) => return,
+            Self::Audit { .. } | Self::Validation { .. } | Self::Output(_) => return None,
             failure => vec![json!({ "message": failure.to_string(), "help": failure.help() })],
         };
-        // If this fails, too, the message on standard error is all that can be done.
-        let _ = standard_output::print_json(&json!({ "errors": errors }));
+        Some(json!({ "errors": errors }))
     }
 
     fn help(&self) -> Option<String> {

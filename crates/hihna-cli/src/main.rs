@@ -71,8 +71,9 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            if json {
-                failure.print_json();
+            if let Some(answer) = failure.json().filter(|_| json) {
+                // If this fails, too, the message on standard error is all that can be done.
+                let _ = standard_output::print_json(&answer);
             }
             failure.print();
             failure.exit_code()

@@ -10,7 +10,7 @@
 //! x, phi: place of the body's centre of mass and its angle.
 
 use crate::linear::BorderedMatrix;
-use crate::system::State;
+use crate::state::State;
 
 /// A vector of a node, held by a planar rigid body.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::ConstraintError;
-use crate::system::{Motion, State};
+use crate::state::{Motion, State};
 
 /// Coefficients below this part of the largest are what rounding left of zero.
 const VANISHED: f64 = 1.0e-12;

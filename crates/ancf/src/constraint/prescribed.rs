@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::system::Motion;
+use crate::state::Motion;
 
 /// A value that does not change.
 #[derive(Clone, Copy, Debug, PartialEq)]

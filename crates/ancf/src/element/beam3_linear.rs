@@ -16,9 +16,8 @@
 //! Linearised, a cantilever of n such beams under a tip load has the deflection of Timoshenko's beam
 //! with its bending part short of `1/(4 n²)`.
 
-use super::space_section::{
-    CENTRE, FIBRE_SLOPES, FIBRES, Factors, SpaceSection, VECTORS, Vectors, dot,
-};
+use super::space_section::{CENTRE, FIBRE_SLOPES, FIBRES, Factors, SpaceSection, VECTORS, Vectors};
+use super::vector::dot;
 use super::{Element, LineElement};
 use crate::material::Isotropic;
 use crate::scalar::Scalar;

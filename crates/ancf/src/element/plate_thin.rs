@@ -266,11 +266,6 @@ fn coordinates<S: Scalar>(e: &[S]) -> &[S; DOF] {
     e
 }
 
-#[inline(always)]
-fn dot<S: Scalar>(a: [S; 3], b: [S; 3]) -> S {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 crate::body_kernels!(ThinPlate);
 
 impl Element for ThinPlate {

@@ -22,6 +22,7 @@
 //! with `Iy = ∫ y² dA` and so on. The terms `vu'` and `uv'` are those of twist, `u'.v = -v'.u` being its
 //! rate: a section that stays plane twists with `ks G (Iy + Iz)`; the torsion factor `k` corrects that.
 
+use super::vector::dot;
 use crate::scalar::Scalar;
 use crate::section::{SHEAR_CORRECTION, SpatialSection};
 
@@ -61,11 +62,6 @@ pub(super) struct Factors {
     pub torsion: f64,
     /// On eyy, ezz and eyz.
     pub transverse: f64,
-}
-
-#[inline(always)]
-pub(super) fn dot<S: Scalar>(a: [S; 3], b: [S; 3]) -> S {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 impl SpaceSection {

@@ -1,7 +1,7 @@
 //! The elimination of the sections one after the other; [`super::cyclic`] has the equations.
 
 use super::block_size::BlockSize;
-use super::cyclic::{Front, Sizes, Slab};
+use super::factor::{Front, Sizes, Slab};
 use super::kernel::{
     Aligned, LANES, accumulate, larger, negative_inverse, raise, transpose, vectors, vectors_mut,
 };

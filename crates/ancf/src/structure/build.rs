@@ -3,6 +3,7 @@
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
+use super::finite::finite;
 use super::{Coordinate, NodeVector, PlanarStructure, StructureError, start};
 use crate::constraint::{
     BodyAttachment, Constant, ConstraintForm, ConstraintSet, LinearEquation, TurnedComponent,
@@ -447,18 +448,4 @@ fn component(what: &'static str, component: usize, last: usize) -> Result<(), St
         });
     }
     Ok(())
-}
-
-pub(super) fn finite(
-    what: &str,
-    mut values: impl Iterator<Item = f64>,
-) -> Result<(), StructureError> {
-    match values.find(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(value) => Err(StructureError::Value {
-            what: what.to_owned(),
-            value,
-            remedy: "finite",
-        }),
-    }
 }

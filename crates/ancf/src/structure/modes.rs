@@ -22,7 +22,7 @@ use faer::linalg::solvers::{Eigen, Llt, SelfAdjointEigen};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, MatRef, Par, Side};
 
-use super::build::finite;
+use super::finite::finite;
 use super::{PlanarStructure, StructureError};
 use crate::constraint::ConstraintSet;
 use crate::element::{Element, LineElement};

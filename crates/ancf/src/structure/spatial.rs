@@ -28,7 +28,8 @@
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use super::build::{HALVINGS, MAX_ITERATIONS, TOLERANCE, finite};
+use super::build::{HALVINGS, MAX_ITERATIONS, TOLERANCE};
+use super::finite::finite;
 use super::modes::natural_modes;
 use super::{Mode, StructureError, start};
 use crate::constraint::{Constant, ConstraintForm, ConstraintSet, LinearEquation};

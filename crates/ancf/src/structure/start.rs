@@ -1,7 +1,7 @@
 //! The start of a motion with given coordinates and velocities.
 
 use super::StructureError;
-use super::build::finite;
+use super::finite::finite;
 use crate::dynamics::Motion;
 use crate::element::Element;
 use crate::system::{ForceLaw, Mechanics, State, System};

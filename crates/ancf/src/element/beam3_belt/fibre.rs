@@ -25,7 +25,7 @@
 //! All quantities are [`Series`]: they carry their derivatives by x, so s' and the derivatives of
 //! `p.s + q.s'` come from the same formulas.
 
-use crate::element::space_section::dot;
+use crate::element::vector::dot;
 use crate::scalar::{Scalar, Series};
 
 type Number<S> = Series<S>;

@@ -21,7 +21,7 @@
 //! `d²N = 2 a* (a*.da N.da + b*.da N.db) + 2 b* (a*.db N.da + b*.db N.db) - N |a* N.da + b* N.db|²` and
 //! `d²p_i = p_i [(m_i X + n_i Y)² + m_i (2 X² - |da|²/a.a) + n_i (2 Y² - |db|²/b.b)]`.
 
-use super::dot;
+use crate::element::vector::dot;
 use crate::scalar::Scalar;
 
 /// D [N m] and nu.

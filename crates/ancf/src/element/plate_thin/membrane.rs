@@ -5,7 +5,7 @@
 //! W = C/2 [(exx + eyy)² - 2 (1 - nu) (exx eyy - exy²)]          C = E h / (1 - nu²)
 //! ```
 
-use super::dot;
+use crate::element::vector::dot;
 use crate::scalar::Scalar;
 
 /// Stiffnesses [N/m]: C, C nu and C (1 - nu)/2.
