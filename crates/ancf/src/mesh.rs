@@ -139,6 +139,18 @@ impl<E: Element> Mesh<E> {
         }
     }
 
+    /// Adds the element vector `local` to `f`.
+    #[inline]
+    pub fn scatter(&self, element: usize, local: &[f64], f: &mut [f64]) {
+        let n = E::NODE_DOF;
+        for k in 0..E::NODES {
+            let first = self.node(element, k) * n;
+            for i in 0..n {
+                f[first + i] += local[k * n + i];
+            }
+        }
+    }
+
     /// Adds the element vector in the lane `lane` of `stored` to `f`.
     #[inline(always)]
     fn scatter_lane(&self, element: usize, stored: &[[f64; LANES]], lane: usize, f: &mut [f64]) {
