@@ -90,7 +90,7 @@ impl NativeResults {
 
     /// Both edges of a belt in space, row by row beside the frames.
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let columns: [(&str, fn(&EdgeRow) -> f64); 8] = [
+        let columns: [EdgeColumn; 8] = [
             ("time", |row| row.time),
             ("material_coordinate", |row| row.material_coordinate),
             ("x0", |row| row.x0),
@@ -161,6 +161,9 @@ impl NativeResults {
         Ok(())
     }
 }
+
+/// Name of a column of the edges and its number in a row.
+type EdgeColumn = (&'static str, fn(&EdgeRow) -> f64);
 
 /// Name of a column and its number in a row.
 type Column = (&'static str, fn(&ProfileRow) -> f64);

@@ -305,6 +305,10 @@ pub fn motion<'py, S: Structure>(
     Ok(answer)
 }
 
+#[expect(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method is not general in its lifetime"
+)]
 fn film<S: Structure>(
     system: &mut System<S::Element, S::Law>,
     mut motion: Motion,
