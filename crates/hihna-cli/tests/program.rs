@@ -320,6 +320,12 @@ fn check_prints_the_layout() {
     // The centre line lies half of the thickness further out: pi times 10 mm more path.
     let output = hihna(&folder, &["check", "--set", "contact.surface=face"]);
     assert!(text(&output.stdout).contains("1.307689 m"), "{output:?}");
+    let fan = "pulley.driven.load={ law = \"fan\", torque = 1.0, speed = 12.0 }";
+    let output = hihna(&folder, &["check", "--set", fan]);
+    assert!(
+        text(&output.stdout).contains("free, with torque"),
+        "{output:?}"
+    );
     let output = hihna(&folder, &["check", "--json", "--set", "belt.strain=1 %"]);
     assert_eq!(status(&output), 0);
     let answer = answer(&output);

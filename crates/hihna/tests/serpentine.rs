@@ -27,20 +27,21 @@ fn a_serpentine_balances() {
     let outcome = simulate(&drive, &mut |_| Flow::Continue).expect("the drive runs");
     assert!(outcome.audit.passed(), "{:?}", outcome.audit);
 
-    // The belt runs inside the radius by T/(R k_p) = 0.3 to 0.6 mm of 30 to 75: 1 % of the lever at most, as the
-    // torque of friction has it too.
+    // Torques are the differences of the spans' tensions times the radius: on the crank within the 0.3 mm of 75 by
+    // which the belt sinks in, twice. On small pulleys bending and seating of the belt take their part, 2 % of the
+    // generator's torque with 120 elements as with 240, and with 60 the means of short spans err by another 3 % of
+    // the differences.
     for p in 0..5 {
         let tension = |p: usize| mean(&outcome, &format!("{}.tension", span(p)));
         let sense = if p == IDLER { -1.0 } else { 1.0 };
-        let expected = sense * (tension((p + 4) % 5) - tension(p)) * RADII[p];
-        let torque = mean(&outcome, &format!("{}.torque", NAMES[p]));
         // Counter-clockwise the belt pulls with the span that leaves the pulley.
-        let error = torque + expected;
+        let expected = sense * (tension(p) - tension((p + 4) % 5)) * RADII[p];
+        let torque = mean(&outcome, &format!("{}.torque", NAMES[p]));
+        let part = if p == 0 { 0.01 } else { 0.05 };
         assert!(
-            error.abs() < 0.01 * torque.abs().max(1.0),
-            "{}: {torque} N m, of the tensions {}",
+            (torque - expected).abs() < part * torque.abs().max(1.0),
+            "{}: {torque} N m, of the tensions {expected}",
             NAMES[p],
-            -expected
         );
     }
 
@@ -50,8 +51,9 @@ fn a_serpentine_balances() {
     assert!((speed / belt - 1.0).abs() < 2.0e-3, "{speed} {belt}");
 }
 
-/// Contact comes and goes twice a step here: the nonlinear solver must not iterate with factors that no longer fit.
-/// Two evaluations and one tangent are the least; the limits leave a third more.
+/// Contact comes and goes twice a step here: the nonlinear solver must not spend itself on factors that no longer
+/// fit. A tangent with its factor costs as much as four evaluations; the limit leaves a quarter more than the 6.3 that
+/// it takes.
 #[test]
 fn a_step_needs_few_evaluations() {
     let overrides = ["run.end_time=0.3".parse().expect("an override")];
@@ -59,9 +61,6 @@ fn a_step_needs_few_evaluations() {
     let outcome = simulate(&drive, &mut |_| Flow::Continue).expect("the drive runs");
     let cost = outcome.statistics;
     let steps = (cost.steps + cost.halved_steps) as f64;
-    let (forces, tangents) = (
-        cost.force_evaluations as f64 / steps,
-        cost.tangent_evaluations as f64 / steps,
-    );
-    assert!(forces < 4.0 && tangents < 1.35, "{forces} {tangents}");
+    let evaluations = (cost.force_evaluations + 4 * cost.tangent_evaluations) as f64 / steps;
+    assert!(evaluations < 8.0, "{evaluations} evaluations a step");
 }
