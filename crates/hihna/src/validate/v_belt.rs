@@ -81,7 +81,7 @@ const OVERLOADED: [&str; 9] = [
 
 /// Passage of two elements after the onset of slip [s].
 const PASSAGE: f64 = 0.01;
-/// Part of the contact that slips where all does: one of its 50 points is two hundredths of it.
+/// Part of the contact that slips where all does: one of its 36 to 54 points along the belt is two hundredths of it.
 const WHOLE: f64 = 0.99;
 
 struct Overload {
