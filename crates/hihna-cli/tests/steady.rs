@@ -636,6 +636,13 @@ fn campbell_diagrams_and_quiet_answers() {
         let first: f64 = row[2].parse().unwrap();
         assert!(first > 1.0 && first < 100.0, "{first} Hz");
     }
+    // A value without an answer does not spoil the others.
+    let from_rest = ["--modes", "1", "--map", "speed=0:12:2"];
+    let (csv, _) = told(folder.path(), &[&fe[..], &from_rest].concat(), 0);
+    let answers: Vec<_> = csv.lines().skip(1).map(|row| &row[..7]).collect();
+    assert_eq!(answers, ["none,0,", "running"]);
+    let at_rest = ["--modes", "1", "--map", "speed=0:0:1"];
+    told(folder.path(), &[&fe[..], &at_rest].concat(), 2);
     let quiet = [&fe[..], &asked, &["--quiet", "--out", "here"]].concat();
     assert_eq!(told(folder.path(), &quiet, 0).0, "");
     assert_eq!(
@@ -677,7 +684,7 @@ fn what_maps_refuse() {
             &["torque=-1:-2:2", "pulley.driven.torque=-3:-4:2"],
             "two ranges",
         ),
-        (&["belt.width"], "no `=`"),
+        (&["belt.width"], "no `=`; a drive file goes before"),
     ];
     for (map, part) in cases {
         let (_, message) = told(folder.path(), &[&fe[..], map].concat(), 2);

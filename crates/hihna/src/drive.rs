@@ -103,7 +103,7 @@ pub struct Steady {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SteadyMesh {
-    /// Up to four times denser where the belt runs on and off the pulleys.
+    /// Denser on the pulleys than in the spans, up to five times where the belt runs on and off.
     #[default]
     Graded,
     /// All of one length.

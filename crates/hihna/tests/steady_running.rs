@@ -321,10 +321,27 @@ fn capacity_from_anywhere() {
     };
     let usual = most("-1");
     for torque in ["-0.2", "-3", "-5"] {
-        // Steps that double the slip pass the beginning of gross slip by less than 1e-2.
+        // 98 % of an arc that slides are gross slip; the steps towards it differ.
         assert_near(torque, most(torque), usual, 1.0e-2 * usual.abs());
     }
-    assert!(matches!(at("-5.6").answer, Answer::GrossSlip(_)));
+    let Answer::GrossSlip(slip) = at("-5.6").answer else {
+        panic!("it runs");
+    };
+    assert_near("overload", slip.overload(), 5.6 / usual.abs(), 2.0e-2);
+}
+
+/// A fan asks for less the slower it turns, so that the drive finds a state in which the driver slides as a whole. That is no running.
+#[test]
+fn sliding_is_gross_slip() {
+    let with = |torque: &str| {
+        let load = format!("pulley.driven.load={{law=\"fan\", torque={torque}, speed=12}}");
+        outcome(BASE, &["belt.elements=60", LOW_FRICTION, &load]).answer
+    };
+    assert!(matches!(with("1.9"), Answer::Running(_)));
+    let Answer::GrossSlip(slip) = with("4") else {
+        panic!("it runs");
+    };
+    assert!(slip.overload() > 1.0);
 }
 
 /// The search goes on until more slip carries no more, however much slip a gentle law or a slow belt needs for that: the capacity is what
@@ -338,8 +355,8 @@ fn capacity_needs_enough_slip() {
     let known = |changes: &[&str]| most(changes).known().expect("a capacity").factor;
     let usual = known(&[]);
     for changes in ["contact.friction.slope=1e3", "pulley.driver.speed=0.01"] {
-        // Twice the slip carries 1e-4 more at the end of the search.
-        assert_near(changes, known(&[changes]), usual, 1.0e-3 * usual);
+        // 98 % of an arc that slides are gross slip; the steps towards it differ.
+        assert_near(changes, known(&[changes]), usual, 1.0e-2 * usual);
     }
     // Steep laws, stiff belts and grips beyond those of belts are hard to follow: what is told holds all the same.
     for hard in [

@@ -189,7 +189,7 @@ fn axis(drive: &Drive, text: &str) -> Result<Axis, Failure> {
     };
     let (key, range) = text
         .split_once('=')
-        .ok_or_else(|| wrong("there is no `=`"))?;
+        .ok_or_else(|| wrong("there is no `=`; a drive file goes before `--map`"))?;
     let parts: Vec<_> = range.split(':').map(str::trim).collect();
     let [from, to, count] = parts[..] else {
         return Err(wrong("three parts between colons are needed"));

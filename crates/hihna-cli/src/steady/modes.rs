@@ -73,17 +73,19 @@ pub fn in_words(modes: &[ModeSummary], wanted: usize) -> String {
         plain(growth, "1/s")
     };
     let (swing, leave): (Vec<_>, Vec<_>) = growing.partition(|mode| mode.frequency > 0.0);
-    let judgement = match (swing.as_slice(), leave.as_slice()) {
-        ([], []) => "None of these modes grows.\n".to_owned(),
+    let stability = match (swing.as_slice(), leave.as_slice()) {
+        ([], []) => "None of these modes grows.".to_owned(),
         (swing, []) => format!(
-            "{} of these modes grow, the fastest by {}. In this linear picture partial slip makes weak growth that changes with the mesh, so confirm it with more `belt.elements`.\n",
+            "{} of these modes grow, the fastest by {}. In this linear picture partial slip makes weak growth that changes with the mesh, so confirm it with more `belt.elements`.",
             swing.len(),
             fastest(swing)
         ),
         (_, leave) => format!(
-            "A motion without swing grows by {}, as where a torque that drives rises with the speed: if more `belt.elements` confirm it, the drive does not stay in this state.\n",
+            "A motion without swing grows by {}, as where a torque that drives rises with the speed: if more `belt.elements` confirm it, the drive does not stay in this state.",
             fastest(leave)
         ),
     };
-    text + &judgement
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{stability}");
+    text
 }

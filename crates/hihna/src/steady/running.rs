@@ -283,29 +283,33 @@ impl<E: BeltElementType> RunningBelt<E> {
         self.newton.factorizations = 0;
         let mut z = self.guess.clone();
         let failure = match self.newton(&mut z) {
-            Ok(found) => return Ok(self.answer(z, found.iterations, Found::Directly)),
+            Ok(found) => return Ok(self.unless_sliding(z, found.iterations, Found::Directly)),
             Err(failure) => failure,
         };
         if let Ok(found) = self.by_easier_friction(&mut z) {
-            return Ok(self.answer(z, found.iterations, Found::EasierFriction));
+            return Ok(self.unless_sliding(z, found.iterations, Found::EasierFriction));
         }
-        let mut idle = self.guess.clone();
-        let load = self.equations.load();
-        idle[load] = 0.0;
-        self.equations.control = equations::Control::Load(0.0);
-        let idling = self.newton(&mut idle);
-        self.equations.control = equations::Control::Load(1.0);
-        if idling.is_ok() {
-            match self.by_slip(&idle, Some(1.0)) {
-                Some(Way::Reached(z)) => return Ok(self.answer(z, 0, Found::GivenSlip)),
-                Some(Way::Exhausted(capacity)) => {
-                    return Ok(Answer::GrossSlip(GrossSlip { capacity }));
+        match self.raise_from_idling() {
+            Some(Way::Reached(z)) => Ok(self.answer(z, 0, Found::GivenSlip)),
+            Some(Way::Exhausted(capacity)) => Ok(Answer::GrossSlip(GrossSlip { capacity })),
+            Some(Way::Lost(factor)) => Err(RunningError::Lost { factor }),
+            None => Err(self.not_found(failure.correction)),
+        }
+    }
+
+    /// The answer that the state `z` is; where a pulley slides as a whole in it, gross slip if less torque brings that about, too. A belt that
+    /// sliding slows down may still find an equilibrium, with less centrifugal force or load.
+    fn unless_sliding(&mut self, z: Vec<f64>, iterations: usize, found: Found) -> Answer {
+        if self.slides(&z) {
+            match self.raise_from_idling() {
+                Some(Way::Exhausted(capacity)) if capacity.factor < 1.0 => {
+                    return Answer::GrossSlip(GrossSlip { capacity });
                 }
-                Some(Way::Lost(factor)) => return Err(RunningError::Lost { factor }),
-                None => {}
+                Some(Way::Reached(z)) => return self.answer(z, 0, Found::GivenSlip),
+                _ => {}
             }
         }
-        Err(self.not_found(failure.correction))
+        self.answer(z, iterations, found)
     }
 
     /// The answer found by Newton's method from `z`, the state of a neighbour, if it finds one.
@@ -321,7 +325,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             *value *= driven.unwrap_or(1.0);
         }
         let found = self.newton(&mut z).ok()?;
-        Some(self.answer(z, found.iterations, Found::Directly))
+        Some(self.unless_sliding(z, found.iterations, Found::Directly))
     }
 
     fn not_found(&self, correction: f64) -> RunningError {

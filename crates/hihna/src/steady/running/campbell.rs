@@ -72,46 +72,59 @@ fn of_elements<E: BeltElementType>(
     let mut points = Vec::with_capacity(axis.values.len());
     // Of every mode that is followed, how it looked last.
     let mut known: Vec<Velocities> = Vec::new();
+    let mut refused = None;
     for &value in &axis.values {
-        let there = at_values(drive, std::slice::from_ref(axis), &[value])?;
         let mut point = CampbellPoint {
             value,
             answer: "none",
             modes: vec![None; count],
         };
-        match running(&there) {
+        let there = at_values(drive, std::slice::from_ref(axis), &[value]);
+        match there.and_then(|there| running(&there)) {
             Ok((mut belt, Answer::Running(found))) => {
                 point.answer = "running";
                 let modes = belt.modes(&found, count + SPARE)?;
-                let masses = belt.nodal_masses();
-                let looks: Vec<_> = (modes.iter())
-                    .map(|mode| Velocities::new::<E>(mode, &masses, &belt))
-                    .collect();
-                if known.is_empty() {
-                    for (slot, mode) in point.modes.iter_mut().zip(&modes) {
-                        *slot = Some(FollowedMode::new(mode, 1.0));
-                    }
-                    known = looks.into_iter().take(count).collect();
-                } else {
-                    for (old, new, similarity) in pairs(&known, &looks) {
-                        point.modes[old] = Some(FollowedMode::new(&modes[new], similarity));
-                        known[old] = looks[new].clone();
-                    }
-                }
+                follow::<E>(&modes, &belt, &mut known, &mut point);
             }
             Ok((_, Answer::GrossSlip(_))) => point.answer = "gross-slip",
             Ok((_, Answer::Slack(_))) => point.answer = "slack",
-            // One value without an answer does not spoil the others; a drive that may not be asked at all does.
-            Err(RunningError::NotFound { .. } | RunningError::Lost { .. }) => {}
-            Err(error) => return Err(error),
+            // One value without an answer does not spoil the others.
+            Err(error) => refused = refused.or(Some(error)),
         }
         points.push(point);
     }
-    Ok(Campbell {
-        key: axis.field.key.clone(),
-        unit: axis.field.unit,
-        points,
-    })
+    match refused {
+        Some(error) if points.iter().all(|point| point.answer == "none") => Err(error),
+        _ => Ok(Campbell {
+            key: axis.field.key.clone(),
+            unit: axis.field.unit,
+            points,
+        }),
+    }
+}
+
+/// Takes the modes of a point for those that they resemble among the `known`, which move with them; the first point's are followed.
+fn follow<E: BeltElementType>(
+    modes: &[Mode],
+    belt: &RunningBelt<E>,
+    known: &mut Vec<Velocities>,
+    point: &mut CampbellPoint,
+) {
+    let masses = belt.nodal_masses();
+    let looks: Vec<_> = (modes.iter())
+        .map(|mode| Velocities::new::<E>(mode, &masses, belt))
+        .collect();
+    if known.is_empty() {
+        for (slot, mode) in point.modes.iter_mut().zip(modes) {
+            *slot = Some(FollowedMode::new(mode, 1.0));
+        }
+        known.extend(looks.into_iter().take(point.modes.len()));
+    } else {
+        for (old, new, similarity) in pairs(known, &looks) {
+            point.modes[old] = Some(FollowedMode::new(&modes[new], similarity));
+            known[old] = looks[new].clone();
+        }
+    }
 }
 
 fn running<E: BeltElementType>(drive: &Drive) -> Result<(RunningBelt<E>, Answer), RunningError> {

@@ -34,7 +34,8 @@ const FIRST_SLIP: f64 = 1.0e-4;
 const SMALLEST_SLIP: f64 = 1.0e-7;
 /// Relative gain of the load factor by twice the slip that counts as none.
 const GAIN: f64 = 1.0e-4;
-/// Where a pulley slides as a whole the load still changes as the belt does, which it slows down: by up to this.
+/// Relative gain of the torques by twice the slip up to which a pulley slides as a whole: they still change, as the belt that it slows down
+/// loses centrifugal force. More gain has a law so steep that what sticks is narrower than can be seen.
 const GAIN_OF_SLIDING: f64 = 1.0e-2;
 /// Part of an arc that slides where all of it does: at its ends, where the belt crosses the pulley's surface, slip may have another sign.
 const SLIDING: f64 = 0.98;
@@ -125,6 +126,17 @@ impl<E: BeltElementType> RunningBelt<E> {
         if done >= 1.0 { Ok(found) } else { Err(failure) }
     }
 
+    /// The way from the drive without its torques; nothing where none act or that does not run.
+    pub(super) fn raise_from_idling(&mut self) -> Option<Way> {
+        let mut idle = self.guess.clone();
+        idle[self.equations.load()] = 0.0;
+        self.equations.control = Control::Load(0.0);
+        let idling = self.newton(&mut idle);
+        self.equations.control = Control::Load(1.0);
+        idling.ok()?;
+        self.by_slip(&idle, Some(1.0))
+    }
+
     /// Raises the slip from that of the state `z` until the load factor is `wanted` or rises no further. Nothing
     /// where no torque acts.
     pub(super) fn by_slip(&mut self, z: &[f64], wanted: Option<f64>) -> Option<Way> {
@@ -180,7 +192,8 @@ impl<E: BeltElementType> RunningBelt<E> {
             }
             // Steps after a failure are short: what counts is the gain to come of twice the slip.
             slip += step;
-            gain = (trial[load] - z[load]) / step * (slip - none) / trial[load].abs();
+            let (carried, more) = (self.carried(&z), self.carried(&trial));
+            gain = (more - carried) / step * (slip - none) / more.abs();
             flat = if gain < GAIN { flat + 1 } else { 0 };
             before = Some((z.clone(), step));
             z.copy_from_slice(&trial);
@@ -194,11 +207,21 @@ impl<E: BeltElementType> RunningBelt<E> {
         }
         // Solutions are lost where the last points of an arc begin to slide, with the load all but exhausted. Anywhere else nothing is
         // known of those beyond.
-        if gain < UNKNOWN_GAIN || self.slides(&z) {
+        if gain < UNKNOWN_GAIN || (gain < GAIN_OF_SLIDING && self.slides(&z)) {
             Way::Exhausted(self.capacity_at(&best))
         } else {
             Way::Lost(best[load])
         }
+    }
+
+    /// What the external torques in the state `z` come to, as forces on the belt [N].
+    fn carried(&self, z: &[f64]) -> f64 {
+        let speeds = self.equations.motion(z).speeds;
+        let pulleys = self.equations.contact.pulleys.iter().zip(speeds);
+        let forces = (pulleys.zip(&self.equations.slip_weights))
+            .filter(|(_, weight)| **weight != 0.0)
+            .map(|((pulley, speed), weight)| pulley.external.value(0.0, *speed) / weight);
+        z[self.equations.load()] * forces.sum::<f64>()
     }
 
     /// The state of the load factor `wanted` between `low` and `high`.
@@ -216,7 +239,7 @@ impl<E: BeltElementType> RunningBelt<E> {
     }
 
     /// Whether friction is exhausted all along a pulley that transmits a torque in the state `z`: gross slip.
-    fn slides(&mut self, z: &[f64]) -> bool {
+    pub(super) fn slides(&mut self, z: &[f64]) -> bool {
         let found = self.observe(z);
         let transmits = (self.equations.prescribed.iter())
             .zip(&self.equations.slip_weights)
