@@ -70,8 +70,6 @@ fn stays_in_steady_running() {
                 "pulley.driver.speed=120",
                 "pulley.driven.torque=-10",
                 "run.end_time=0.1",
-                "run.integrator=\"auto\"",
-                "run.accuracy=1e-3",
             ],
         ),
     ] {

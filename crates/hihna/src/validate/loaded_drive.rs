@@ -46,9 +46,6 @@ impl Loaded {
                 &format!("contact.friction.slope={slope}"),
                 &format!("run.profile_times=[{}]", times.join(", ")),
                 "run.output_interval=5e-4",
-                // As every other drive of the chapter.
-                "run.integrator=\"auto\"",
-                "run.accuracy=1e-3",
             ],
         )?;
         let sections = [0, DRIVEN].map(|p| run.sections(p, SECTIONS, BEYOND));
