@@ -30,7 +30,7 @@ ELSEWHERE = {
     "cargo build --release && python3 benches/element_kinds.py",
     "cargo build --release && python3 docs/limit_study.py",
     "hihna validate",
-    "cargo run -- validate --markdown > docs/src/validation.md",
+    "cargo run --release -- validate --markdown > docs/src/validation.md",
 }
 
 

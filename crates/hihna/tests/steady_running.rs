@@ -358,9 +358,13 @@ fn capacity_needs_enough_slip() {
         // 98 % of an arc that slides are gross slip; the steps towards it differ.
         assert_near(changes, known(&[changes]), usual, 1.0e-2 * usual);
     }
-    // Steep laws, stiff belts and grips beyond those of belts are hard to follow: what is told holds all the same.
+    // So steep a law is not solved from every torque; from this one it is, and carries what the others do.
+    match most(&["contact.friction.slope=1e8"]) {
+        Most::Known(capacity) => assert_near("slope 1e8", capacity.factor, usual, 1.0e-2 * usual),
+        Most::AtLeast(factor) => assert!(factor < 1.01 * usual, "slope 1e8: {factor}"),
+    }
+    // Stiff belts and grips beyond those of belts are hard to follow: what is told holds all the same.
     for hard in [
-        "contact.friction.slope=1e8",
         "belt.youngs_modulus=2e11",
         "contact.friction.coefficient=10",
     ] {

@@ -24,7 +24,7 @@ fn every_case_agrees_with_what_is_published() {
 }
 
 /// The page `docs/src/validation.md` has the cases and quantities of the catalogue, in its order, and no
-/// failure. Its numbers are not compared: `cargo run -- validate --markdown` writes them.
+/// failure. Its numbers are not compared: `cargo run --release -- validate --markdown` writes them.
 #[test]
 fn the_dossier_has_the_same_cases() {
     let page = include_str!("../../../docs/src/validation.md");

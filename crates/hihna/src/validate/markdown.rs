@@ -11,7 +11,7 @@ const HEAD: &str = "\
 Published values and what this program computes, case by case. This page is written by
 
 ```sh
-cargo run -- validate --markdown > docs/src/validation.md
+cargo run --release -- validate --markdown > docs/src/validation.md
 ```
 
 *Deviation* is computed less published, or less the reference in brackets where the printed value is a
