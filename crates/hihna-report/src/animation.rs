@@ -1,7 +1,5 @@
 //! What the animation of the moving belt needs, as small as eyes allow.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use hihna::drive::Drive;
 use hihna::history::History;
 use hihna::layout::Layout;
@@ -9,6 +7,7 @@ use hihna::observe::{EdgeRow, ProfileRow};
 use serde::Serialize;
 
 use crate::drawing::free_side;
+use crate::packed::text;
 use crate::path::feet;
 use crate::series::short;
 use crate::strip::{Sides, Strip};
@@ -169,13 +168,4 @@ fn outline(layout: &Layout) -> Vec<[f32; 2]> {
         })
         .map(|[x, y]| [short(x), short(y)])
         .collect()
-}
-
-/// Numbers as base64.
-pub fn text(values: &[f32]) -> String {
-    let bytes: Vec<u8> = values
-        .iter()
-        .flat_map(|value| value.to_le_bytes())
-        .collect();
-    STANDARD.encode(bytes)
 }

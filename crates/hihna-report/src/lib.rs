@@ -9,6 +9,7 @@ mod drawing;
 mod headline;
 mod inputs;
 mod map;
+mod packed;
 mod page;
 mod path;
 mod series;

@@ -4,7 +4,7 @@ use hihna::drive::Drive;
 use hihna::observe::EdgeRow;
 use serde::Serialize;
 
-use crate::animation::text;
+use crate::packed::text;
 use crate::series::short;
 
 /// A belt between two edges, in space.

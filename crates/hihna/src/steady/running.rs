@@ -53,6 +53,7 @@ pub mod map;
 mod material;
 mod mesh;
 pub mod modes;
+mod motion;
 mod newton;
 mod prepare;
 pub mod sensitivity;

@@ -17,8 +17,8 @@ use ancf::element::LineElement;
 use ancf::linear::BorderedMatrix;
 use ancf::mesh::Mesh;
 
-use super::contact::Motion;
 use super::line::{ContactLine, MOST_DOF, Passage, Weights};
+use super::motion::Motion;
 use crate::contact::{ContactPulley, Penalty, PointContact};
 use crate::friction::FrictionLaw;
 use crate::layout::Layout;

@@ -17,6 +17,7 @@ use ancf::quadrature::Rule;
 
 use super::bristles::{Bristles, Marched, Turn};
 use super::line::{ContactLine, ElementMatrix, MOST_DOF, MOST_VECTORS, Passage, Weights};
+use super::motion::Motion;
 use super::split::{Piece, pieces};
 use crate::contact::{BeltPoint, ContactPulley, Penalty, PointContact, PulleyContact};
 
@@ -40,16 +41,6 @@ pub(super) enum By {
     Unknowns,
     /// Rates of the coordinates on top of it: small motions.
     Rates,
-}
-
-/// Motion of belt and pulleys: coordinates of the chain, circulation speed, speeds of the pulleys and phases of their
-/// bristles, where there are any.
-#[derive(Clone, Copy)]
-pub(super) struct Motion<'a> {
-    pub chain: &'a [f64],
-    pub circulation: f64,
-    pub speeds: &'a [f64],
-    pub phases: &'a [f64],
 }
 
 impl SteadyContact {

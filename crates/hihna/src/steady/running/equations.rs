@@ -4,8 +4,9 @@ use ancf::element::LineElement;
 use ancf::linear::{BorderedMatrix, Structure};
 use ancf::mesh::Mesh;
 
-use super::contact::{By, Motion, SteadyContact};
+use super::contact::{By, SteadyContact};
 use super::inertia::ConvectiveInertia;
+use super::motion::Motion;
 
 /// What holds the belt from sliding along itself through the mesh.
 #[derive(Clone, Copy, Debug)]
