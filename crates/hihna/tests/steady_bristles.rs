@@ -129,6 +129,43 @@ fn capacity() {
     assert!(soft > 1.9 && soft < 2.0, "{soft}");
 }
 
+/// Bristles that stick run at the lever of their penetration, so that unequal pulleys creep without a torque: the capacity is the same from
+/// a light and from a heavy load, in both directions, and what is beyond it is told by it (1 %, the part of an arc that may stick).
+#[test]
+fn capacity_of_unequal_pulleys() {
+    for radius in ["0.05", "0.12"] {
+        for sign in [-1.0, 1.0] {
+            let torque = |load: f64| {
+                let changes = [
+                    "belt.strain=0.005",
+                    &bristles(0.3, 1.0e7),
+                    &format!("pulley.driven.radius={radius}"),
+                    &format!("pulley.driven.torque={}", sign * load),
+                ]
+                .map(str::to_owned);
+                let mut belt = belt(&changes.each_ref().map(String::as_str));
+                match belt.solve() {
+                    Ok(Answer::Running(running)) => match belt.capacity(&running) {
+                        Some(Most::Known(capacity)) => capacity.factor * load,
+                        other => panic!("{radius} {sign} {load}: {other:?}"),
+                    },
+                    Ok(Answer::GrossSlip(slip)) => slip.capacity.factor * load,
+                    other => panic!("{radius} {sign} {load}: {other:?}"),
+                }
+            };
+            let most = torque(0.5);
+            assert!(most > 1.0, "{radius} {sign}: {most}");
+            for load in [0.02, 0.9 * most, 1.5 * most] {
+                let found = torque(load);
+                assert!(
+                    (found / most - 1.0).abs() < 1.0e-2,
+                    "{radius} {sign} {load}: {found} {most}"
+                );
+            }
+        }
+    }
+}
+
 /// Small motions of bristles are not known.
 #[test]
 fn no_modes() {

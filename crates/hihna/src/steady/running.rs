@@ -341,7 +341,8 @@ impl<E: BeltElementType> RunningBelt<E> {
 
     /// The most that the drive carries, from the state in which it runs; nothing where no torque acts.
     pub fn capacity(&mut self, running: &Running) -> Option<Most> {
-        match self.by_slip(&running.state, None)? {
+        let none = self.idle_slip();
+        match self.by_slip(&running.state, none, None)? {
             Way::Exhausted(capacity) => Some(Most::Known(capacity)),
             Way::Lost(factor) => Some(Most::AtLeast(factor)),
             Way::Reached(_) => None,

@@ -128,33 +128,44 @@ impl<E: BeltElementType> RunningBelt<E> {
 
     /// The way from the drive without its torques; nothing where none act or that does not run.
     pub(super) fn raise_from_idling(&mut self) -> Option<Way> {
+        let idle = self.idling()?;
+        let none = self.equations.slip(&idle);
+        self.by_slip(&idle, none, Some(1.0))
+    }
+
+    /// The slip without torques. Bristles that stick creep, too, where pulleys differ: their lever is the radius less the penetration.
+    pub(super) fn idle_slip(&mut self) -> f64 {
+        let idle = self.idling();
+        self.equations.slip(idle.as_ref().unwrap_or(&self.guess))
+    }
+
+    /// The drive without its torques; nothing where that does not run.
+    fn idling(&mut self) -> Option<Vec<f64>> {
         let mut idle = self.guess.clone();
         idle[self.equations.load()] = 0.0;
         self.equations.control = Control::Load(0.0);
-        let idling = self.newton(&mut idle);
+        let found = self.newton(&mut idle);
         self.equations.control = Control::Load(1.0);
-        idling.ok()?;
-        self.by_slip(&idle, Some(1.0))
+        found.ok().map(|_| idle)
     }
 
-    /// Raises the slip from that of the state `z` until the load factor is `wanted` or rises no further. Nothing
-    /// where no torque acts.
-    pub(super) fn by_slip(&mut self, z: &[f64], wanted: Option<f64>) -> Option<Way> {
+    /// Raises the slip from that of the state `z` until the load factor is `wanted` or rises no further; `none` is the slip without
+    /// torques. Nothing where no torque acts.
+    pub(super) fn by_slip(&mut self, z: &[f64], none: f64, wanted: Option<f64>) -> Option<Way> {
         if self.equations.slip_weights.iter().all(|w| *w == 0.0) {
             return None;
         }
-        let way = self.raise_slip(z.to_vec(), wanted);
+        let way = self.raise_slip(z.to_vec(), none, wanted);
         self.equations.control = Control::Load(1.0);
         Some(way)
     }
 
-    fn raise_slip(&mut self, mut z: Vec<f64>, wanted: Option<f64>) -> Way {
+    fn raise_slip(&mut self, mut z: Vec<f64>, none: f64, wanted: Option<f64>) -> Way {
         let load = self.equations.load();
         let travel: f64 = (self.equations.slip_weights.iter().enumerate())
             .map(|(p, weight)| (weight * self.guess[self.equations.chain() + p]).abs())
             .fold(0.0, f64::max);
         let mut slip = self.equations.slip(&z);
-        let none = self.equations.slip(&self.guess);
         let mut step = FIRST_SLIP * travel;
         let mut best = z.clone();
         let mut flat = 0;
@@ -193,7 +204,11 @@ impl<E: BeltElementType> RunningBelt<E> {
             // Steps after a failure are short: what counts is the gain to come of twice the slip.
             slip += step;
             let (carried, more) = (self.carried(&z), self.carried(&trial));
-            gain = (more - carried) / step * (slip - none) / more.abs();
+            gain = if slip > none {
+                (more - carried) / step * (slip - none) / more.abs()
+            } else {
+                f64::INFINITY
+            };
             flat = if gain < GAIN { flat + 1 } else { 0 };
             before = Some((z.clone(), step));
             z.copy_from_slice(&trial);

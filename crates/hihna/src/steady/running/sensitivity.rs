@@ -21,7 +21,7 @@ use crate::input::NumberField;
 use crate::steady::drive_string::{DriveSensitivity, Input, Output};
 
 /// Step, relative to the field.
-const STEP: f64 = 1.0e-5;
+const STEP: f64 = 1.0e-7;
 /// Step of a field that is zero, SI.
 const STEP_FROM_ZERO: f64 = 1.0e-6;
 
