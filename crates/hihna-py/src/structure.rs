@@ -127,7 +127,9 @@ pub fn modes<'py, S: Structure>(
     about: Option<(Numbers<'py>, Numbers<'py>)>,
     raised: &Raised,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let system = structure.system().map_err(|error| wrong(&error))?;
+    let system = structure.system();
+    tell(raised)?;
+    let system = system.map_err(|error| wrong(&error))?;
     let drawn = structure.at_rest(&system).q;
     let (q, multipliers) = match about {
         None => (drawn.clone(), vec![0.0; drawn.len()]),
@@ -284,7 +286,10 @@ pub fn motion<'py, S: Structure>(
     raised: &Raised,
 ) -> PyResult<Bound<'py, PyDict>> {
     let control = course.control()?;
-    let mut system = structure.system().map_err(|error| wrong(&error))?;
+    let system = structure.system();
+    // What a function raised comes before what is wrong with its answer.
+    tell(raised)?;
+    let mut system = system.map_err(|error| wrong(&error))?;
     let start = course.start(structure, &system);
     tell(raised)?;
     let start = start?;

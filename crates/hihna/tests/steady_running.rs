@@ -522,6 +522,56 @@ fn derivatives() {
     }
 }
 
+/// A torque that is given does not change with lengths, and power is torque times speed, whatever the field: on the coarsest meshes, too,
+/// whose corners of contact lie close together. A corner within the steps of a derivative would show as a change of the torque. Forces are
+/// known to 1e-12 of E A, some thousands of roundings, which steps of 1e-7 of the field turn into 1e-5 of E A over the field.
+#[test]
+fn derivatives_keep_the_torque() {
+    for (text, changes) in [
+        (BASE, &[LOAD][..]),
+        (
+            BASE,
+            &[
+                "belt.elements=30",
+                "steady.mesh=\"uniform\"",
+                "pulley.driven.torque=-3",
+            ],
+        ),
+    ] {
+        let drive = drive(text, changes);
+        let mut belt = RunningBelt::<BeltBeam2>::new(&drive).expect("a drive");
+        let Answer::Running(running) = belt.solve().expect("solved") else {
+            panic!("it does not run");
+        };
+        let torque = running.pulleys[1].torque;
+        for key in [
+            "belt.length",
+            "pulley.driven.radius",
+            "pulley.driven.center.0",
+        ] {
+            let field = NumberField::find(&drive, key).expect("a field");
+            let found = belt
+                .sensitivity(&drive, &running, &[field])
+                .expect("derivatives");
+            let input = &found.inputs[0];
+            let by = |name: &str| {
+                let place = found.outputs.iter().position(|output| output.name == name);
+                input.derivatives[place.expect("a result")]
+            };
+            let part = 1.0e-5 * 1.0e4 * drive.pulley[1].radius / input.value;
+            assert_near(key, by("pulley.driven.torque"), 0.0, part);
+            let speed = by("pulley.driven.speed");
+            let power = torque * speed;
+            assert_near(
+                key,
+                by("pulley.driven.power"),
+                power,
+                part * running.pulleys[1].speed,
+            );
+        }
+    }
+}
+
 /// The lowest mode of a span against the string of tension T that travels with the speed v between its tangent points, `f = (w² - v²)/(2 L w)`
 /// with the wave speed `w² = T lambda / (rho A)` of the belt stretched by lambda: 0.5 %, which bending and the compliance of the pulleys
 /// leave. Both spans have it where no torque makes their tensions differ. Friction damps: nothing grows.

@@ -404,7 +404,7 @@ impl<E: LineElement> SpatialStructure<E> {
                     element.energy_scale(),
                 ),
                 (
-                    "the mass of an element (density times volume)",
+                    "the thickness by the inertia of an element",
                     self.thickness(),
                 ),
             ] {
