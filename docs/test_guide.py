@@ -46,10 +46,10 @@ def shell(text, page_folder, number):
         shutil.copy(file, folder)
     for line in text.splitlines():
         command = line.split(" #")[0].strip()
-        if command.startswith("cargo run --release -- "):
-            command = command.replace("cargo run --release --", "hihna")
         if not command or command.startswith("#") or command in ELSEWHERE:
             continue
+        if command.startswith("cargo run --release -- "):
+            command = command.replace("cargo run --release --", "hihna")
         words = shlex.split(command)
         if words[:2] == ["python3", "docs/plot_history.py"]:
             # Its picture stays here, not among those of the guide.
