@@ -96,4 +96,10 @@ pub trait Scheme {
         step: f64,
         to: &mut Motion,
     ) -> Result<(), NotConverged>;
+
+    /// The state within the last step at which it solves the equations of motion, and the weights of start,
+    /// this state and end by which it integrates over the step; `None`: the trapezoidal rule of both ends.
+    fn middle(&self) -> Option<(&Motion, [f64; 3])> {
+        None
+    }
 }

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use hihna::input::{InputError, InputErrors};
 use hihna::record::RecordError;
 use hihna::simulate::RunError;
-use hihna::steady::running::RunningError;
+use hihna::steady::running::{Obstacle, RunningError};
 use hihna::steady::string::StringError;
 use hihna::validate::{CatalogueError, UnknownCase};
 use hihna_report::ReportError;
@@ -159,8 +159,20 @@ impl Failure {
             Self::Running(RunningError::Lost { .. }) => {
                 "try more `belt.elements`, lower torques or gentler bristles"
             }
-            Self::Running(RunningError::NotFound { .. }) => {
-                "run slower or tighten the belt if it lifts off its pulleys; otherwise try more `belt.elements` or a gentler friction law"
+            Self::Running(RunningError::NotFound(obstacle)) => match obstacle {
+                Obstacle::LiftOff { .. } => "run slower or tighten the belt",
+                Obstacle::BendingWaves { .. } => {
+                    "take a larger `belt.bending_factor`, run slower, leave bending out with `--model full`, or run it in time with `hihna run --until steady`"
+                }
+                Obstacle::Drivers { .. } => {
+                    "give the speed of one pulley and torques of the others: a belt that slips all along a pulley has no steady running"
+                }
+                Obstacle::Unknown => {
+                    "try more `belt.elements`, a gentler friction law or less `contact.damping`"
+                }
+            },
+            Self::Running(RunningError::Derivatives { .. }) => {
+                "try more `belt.elements` or lower torques"
             }
             Self::Record(_) => {
                 "nothing was kept; free some space or name another place with --out, then run again"

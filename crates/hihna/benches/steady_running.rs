@@ -64,7 +64,7 @@ fn steady_running(criterion: &mut Criterion) {
         .build()
         .expect("a thread");
     group.bench_function("map of 400 points on one core", |bencher| {
-        bencher.iter(|| one.install(|| map(black_box(&base), &axes)));
+        bencher.iter(|| one.install(|| map(black_box(&base), &axes, || ())));
     });
     group.finish();
 }

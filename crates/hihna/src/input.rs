@@ -83,10 +83,7 @@ impl DriveFile {
         let drive = match value {
             Some(value) if checker.structural.is_empty() => match deserialize(value) {
                 Ok(drive) => {
-                    problems.extend(rules::problems(&drive));
-                    if problems.is_empty() {
-                        problems.extend(rules::mounting(&drive));
-                    }
+                    add_broken_rules(&drive, &mut problems);
                     Some(drive)
                 }
                 Err(problem) => {
@@ -181,11 +178,19 @@ impl Drive {
             .map(|error| error.problem)
             .collect();
         problems.extend(checker.ranges);
-        problems.extend(rules::problems(self));
-        if problems.is_empty() {
-            problems.extend(rules::mounting(self));
-        }
+        add_broken_rules(self, &mut problems);
         problems
+    }
+}
+
+/// Adds the rules that `drive` breaks to the `problems` that it has: those of tables without any, as a field out of its range breaks
+/// rules by the way.
+fn add_broken_rules(drive: &Drive, problems: &mut Vec<Problem>) {
+    let mut broken = rules::problems(drive);
+    broken.retain(|rule| problems.iter().all(|p| p.path.table() != rule.path.table()));
+    problems.extend(broken);
+    if problems.is_empty() {
+        problems.extend(rules::mounting(drive));
     }
 }
 

@@ -220,9 +220,11 @@ pub struct SettlingSummary {
     pub time: f64,
     /// Length of the windows over which means were taken [s].
     pub window: f64,
-    /// Change between the last two windows of the mean that changes most against what is allowed, relative to its nominal
-    /// value [-]; null before there are two.
+    /// Change between the last two windows, relative to its nominal value [-], of the mean that has most left to come against what
+    /// is allowed; null before there are three.
     pub change: Option<f64>,
+    /// What its changes let expect to come [-]; null before there are three windows.
+    pub left: Option<f64>,
     /// What is allowed of it [-]: the accuracy of the run, or the standard error of a mean.
     pub tolerance: f64,
 }
@@ -302,6 +304,7 @@ impl Summary {
                 time: end,
                 window: settling.window,
                 change: settling.change.is_finite().then_some(settling.change),
+                left: settling.left.is_finite().then_some(settling.left),
                 tolerance: settling.tolerance,
             }),
             steady,

@@ -6,9 +6,8 @@ use hihna::steady::running::{Answer, Most, Running, RunningBelt};
 
 const BASE: &str = include_str!("../../../examples/two_pulley.toml");
 const RADIUS: f64 = 0.08125;
-/// E A [N] and k_p [N/m²] of the belt of Table 3.1.
+/// E A [N] of the belt of Table 3.1.
 const AXIAL_STIFFNESS: f64 = 1.0e4;
-const SEAT: f64 = 1.0e7;
 
 fn belt(changes: &[&str]) -> RunningBelt<BeltBeam2> {
     let overrides: Vec<_> = (["belt.elements=60"].iter().chain(changes))
@@ -38,36 +37,43 @@ fn slip(running: &Running) -> f64 {
 const LOAD: &str = "pulley.driven.torque=-1";
 
 /// Stretch over the distance from the pulley's centre, by the radius: the angle about the centre that a length of belt under the tension T
-/// covers, with the stretch f of `T = E A (f² - 1) f / 2` and the penetration `d = T/(k_p R)`.
-fn turn(tension: f64) -> f64 {
+/// covers, with the stretch f of `T = E A (f² - 1) f / 2` and the penetration `d = T/(k_p R)`, `seat` being `k_p` [N/m²].
+fn turn(tension: f64, seat: f64) -> f64 {
     let mut f = 1.0;
     for _ in 0..20 {
         f -= (0.5 * AXIAL_STIFFNESS * (f * f - 1.0) * f - tension)
             / (0.5 * AXIAL_STIFFNESS * (3.0 * f * f - 1.0));
     }
-    f / (1.0 - tension / (SEAT * RADIUS * RADIUS))
+    f / (1.0 - tension / (seat * RADIUS * RADIUS))
 }
 
-/// Bar on bristles (theory manual, S13), below the limit of friction. The belt sinks in over `sqrt(2 R d)` = 2.3 mm at each end of an
-/// arc of 255 mm, which the bar does not know: 1 % of its length, and the bristles' part of the slip falls with its square. Twice that.
+/// Bar on bristles (theory manual, S13), below the limit of friction, as long as the belt touches. Where it sinks in and bends, over
+/// `sqrt(2 R d)` = 2.3 mm and `sqrt(E I/T)` = 5 mm of 255 mm at each end, it is no bar on a circle: of the slip that tension makes,
+/// `(d_t - d_s)/R` and more of a part of 1 % of the arc, 2e-3 of the slip on a soft seat; on a seat a hundred times as hard a quarter of it.
 #[test]
 fn bar_on_bristles() {
-    for stiffness in [1.0e5, 1.0e6] {
-        let found = running(&[LOAD, &bristles(1.2, stiffness)]);
-        let [slack, tight] = [0, 1].map(|s| found.spans[s].tension);
-        let middle = 0.5 * (slack + tight);
-        let compliance = (turn(middle + 1.0e-3) - turn(middle - 1.0e-3)) / 2.0e-3;
-        let length = std::f64::consts::PI * RADIUS / turn(middle);
-        let decay = (stiffness * compliance).sqrt() * length;
-        let first = (tight - slack) * compliance / (decay.cosh() - 1.0);
-        let theory = 1.0 - (turn(slack) - first) / (turn(tight) + first);
-        let error = slip(&found) / theory - 1.0;
-        assert!(
-            error.abs() < 0.02,
-            "{stiffness:e}: {} {theory}",
-            slip(&found)
-        );
-        assert!(found.iterations <= 8, "{}", found.iterations);
+    for (seat, tolerance) in [(1.0e7, 4.0e-3), (1.0e9, 1.0e-3)] {
+        for stiffness in [1.0e5, 1.0e6] {
+            let hard = format!("contact.stiffness={seat:e}");
+            let found = running(&[LOAD, &hard, &bristles(1.2, stiffness)]);
+            let [slack, tight] = [0, 1].map(|s| found.spans[s].tension);
+            let middle = 0.5 * (slack + tight);
+            let compliance = (turn(middle + 1.0e-3, seat) - turn(middle - 1.0e-3, seat)) / 2.0e-3;
+            let angle = 0.5 * (found.pulleys[0].contact_angle + found.pulleys[1].contact_angle);
+            let length = angle * RADIUS / turn(middle, seat);
+            let decay = (stiffness * compliance).sqrt() * length;
+            let first = (tight - slack) * compliance / (decay.cosh() - 1.0);
+            let theory = 1.0 - (turn(slack, seat) - first) / (turn(tight, seat) + first);
+            let error = slip(&found) / theory - 1.0;
+            assert!(
+                error.abs() < tolerance,
+                "{seat:e}, {stiffness:e}: {} {theory}",
+                slip(&found)
+            );
+            if seat < 1.0e8 {
+                assert!(found.iterations <= 8, "{}", found.iterations);
+            }
+        }
     }
 }
 

@@ -648,7 +648,7 @@ fn campbell_diagram() {
         field: NumberField::find(&drive, "pulley.driver.speed").expect("a field"),
         values: vec![30.0, 120.0, 210.0, 300.0],
     };
-    let found = campbell(&drive, &axis, 3).expect("a diagram");
+    let found = campbell(&drive, &axis, 3, || ()).expect("a diagram");
     let mut last = f64::INFINITY;
     for point in &found.points {
         assert_eq!(point.answer, "running");
@@ -681,7 +681,7 @@ fn capacity_along_a_map_of_speeds() {
         field: NumberField::find(&drive, "pulley.driver.speed").expect("a field"),
         values: vec![12.0, 60.0],
     };
-    let found = map(&drive, &[speed]);
+    let found = map(&drive, &[speed], || ());
     let margin = found
         .columns
         .iter()
@@ -711,7 +711,7 @@ fn maps() {
         axis("pulley.driven.torque", &[-0.5, -1.0, -1.5, -3.0]),
         axis("pulley.driver.speed", &[6.0, 12.0]),
     ];
-    let found = map(&drive, &axes);
+    let found = map(&drive, &axes, || ());
     let column = |name: &str| {
         found
             .columns
@@ -750,6 +750,6 @@ fn maps() {
         .num_threads(1)
         .build()
         .expect("a thread");
-    let alone = one.install(|| map(&drive, &axes));
+    let alone = one.install(|| map(&drive, &axes, || ()));
     assert_eq!(format!("{alone:?}"), format!("{found:?}"));
 }

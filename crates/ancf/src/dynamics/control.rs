@@ -162,6 +162,8 @@ pub struct Window<'a> {
     pub from: &'a Motion,
     /// The state after it.
     pub to: &'a Motion,
+    /// What the scheme has solved between them: [`Scheme::middle`].
+    pub middle: Option<(&'a Motion, [f64; 3])>,
 }
 
 impl Window<'_> {
@@ -289,14 +291,8 @@ pub fn integrate<S: Mechanics, P: Into<Pace>>(
             grid.advance();
             next.time = grid.time();
             stage.statistics.steps += 1;
+            let flow = observe(system, schemes.window(motion, &next));
             stage.statistics.fallback_steps += usize::from(schemes.accepted());
-            let flow = observe(
-                system,
-                Window {
-                    from: motion,
-                    to: &next,
-                },
-            );
             system.accept(State {
                 time: next.time,
                 q: &next.q,
@@ -442,6 +438,16 @@ impl Schemes {
             Some(fallback) if self.remaining > 0 => fallback.step(system, stage, from, step, to),
             _ => self.main.step(system, stage, from, step, to),
         }
+    }
+
+    /// The step just made.
+    fn window<'a>(&'a self, from: &'a Motion, to: &'a Motion) -> Window<'a> {
+        let scheme = match &self.fallback {
+            Some(fallback) if self.remaining > 0 => fallback,
+            _ => self.main.as_ref(),
+        };
+        let middle = scheme.middle();
+        Window { from, to, middle }
     }
 
     /// Hands over to the fall-back; false if there is none or it is at work already.

@@ -6,7 +6,11 @@
 //! v2 = w v1 + (1 - w) v0 + g x2              w = 1 / (c (2 - c))
 //! ```
 //!
-//! and the same for `q` with `v` in the place of `x`.
+//! and the same for `q` with `v` in the place of `x`. Put together, the step integrates by
+//!
+//! ```text
+//! v2 - v0 = h [sqrt(2)/4 x0 + sqrt(2)/4 x1 + (1 - sqrt(2)/2) x2]
+//! ```
 
 use super::stage::{NotConverged, Stage, StageBase};
 use super::{Motion, Scheme};
@@ -62,5 +66,10 @@ impl Scheme for TrBdf2 {
         stage.solve(system, to, base)?;
         to.algorithmic.copy_from_slice(&to.a);
         Ok(())
+    }
+
+    fn middle(&self) -> Option<(&Motion, [f64; 3])> {
+        let quarter = 0.25 * std::f64::consts::SQRT_2;
+        Some((&self.middle, [quarter, quarter, 1.0 - 2.0 * quarter]))
     }
 }

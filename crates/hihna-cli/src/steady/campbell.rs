@@ -13,6 +13,7 @@ use super::elements::failure;
 use super::map::axes;
 use crate::diagnostics::Failure;
 use crate::loudness::Loudness;
+use crate::progress::CountBar;
 use crate::standard_output;
 
 /// What is told of every mode.
@@ -68,8 +69,12 @@ pub fn steady(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> 
         .map(|place| Folder::new(place, arguments.force))
         .transpose()
         .map_err(Failure::Folder)?;
-    let found = campbell(&file.drive, axis, arguments.modes.into())
-        .map_err(|error| failure(error, &file))?;
+    let bar = CountBar::new(axis.values.len(), loudness.shows_progress());
+    let found = campbell(&file.drive, axis, arguments.modes.into(), || {
+        bar.done("values");
+    });
+    bar.finish();
+    let found = found.map_err(|error| failure(error, &file))?;
     let columns = columns(&found, arguments.modes);
     let csv = csv(&found, &columns);
     let diagram = Diagram {

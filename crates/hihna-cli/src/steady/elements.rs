@@ -49,7 +49,9 @@ pub fn steady(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> 
     let sensitivity = study.sensitivity.map(|found| sensitivity::by_field(&found));
     let names: Vec<_> = file.drive.pulley.iter().map(|p| p.name.as_str()).collect();
     let modes = study.modes.map(|found| modes::summary(&found, &names));
-    let summary = RunningSummary::new(&file.drive, &outcome);
+    let mut summary = RunningSummary::new(&file.drive, &outcome);
+    let growth = modes.as_deref().and_then(modes::stability);
+    summary.warnings.extend(growth);
     if let Some(folder) = folder {
         let told = Told {
             folder: None,

@@ -13,6 +13,7 @@ use super::Arguments;
 use super::elements::{failure, find_fields};
 use crate::diagnostics::{Failure, print_warning};
 use crate::loudness::Loudness;
+use crate::progress::CountBar;
 use crate::standard_output;
 
 mod table;
@@ -68,7 +69,10 @@ pub fn steady(arguments: &Arguments, loudness: Loudness) -> Result<(), Failure> 
         .map(|place| Folder::new(place, arguments.force))
         .transpose()
         .map_err(Failure::Folder)?;
-    let found = map(&file.drive, &axes);
+    let points = axes.iter().map(|axis| axis.values.len()).product();
+    let bar = CountBar::new(points, loudness.shows_progress());
+    let found = map(&file.drive, &axes, || bar.done("points"));
+    bar.finish();
     let answers = answers(&found);
     let mut without = found.rows.iter().filter(|row| row.error.is_some());
     let count = without.clone().count();

@@ -43,7 +43,7 @@ pub fn summary(modes: &[Mode], names: &[&str]) -> Vec<ModeSummary> {
     modes.iter().map(of).collect()
 }
 
-/// A table, and a word on modes that grow and on those of `wanted` that were not found.
+/// A table, and a word on those of `wanted` that were not found, or that none grows.
 pub fn in_words(modes: &[ModeSummary], wanted: usize) -> String {
     let header = ["mode", "frequency", "growth", "damping", "pulleys' energy"];
     let mut table = columns(&header, &[0, 1, 2, 3, 4]);
@@ -65,27 +65,32 @@ pub fn in_words(modes: &[ModeSummary], wanted: usize) -> String {
             modes.len()
         );
     }
+    if stability(modes).is_none() {
+        text.push_str("None of these modes grows.\n");
+    }
+    text
+}
+
+/// What growing modes mean, if any grows.
+pub fn stability(modes: &[ModeSummary]) -> Option<String> {
     let growing = modes.iter().filter(|mode| mode.growth > 0.0);
+    let (swing, leave): (Vec<_>, Vec<_>) = growing.partition(|mode| mode.frequency > 0.0);
     let fastest = |modes: &[&ModeSummary]| {
         let growth = modes
             .iter()
             .fold(0.0, |most: f64, mode| most.max(mode.growth));
         plain(growth, "1/s")
     };
-    let (swing, leave): (Vec<_>, Vec<_>) = growing.partition(|mode| mode.frequency > 0.0);
-    let stability = match (swing.as_slice(), leave.as_slice()) {
-        ([], []) => "None of these modes grows.".to_owned(),
-        (swing, []) => format!(
-            "{} of these modes grow, the fastest by {}. In this linear picture partial slip makes weak growth that changes with the mesh, so confirm it with more `belt.elements`.",
+    match (swing.as_slice(), leave.as_slice()) {
+        ([], []) => None,
+        (swing, []) => Some(format!(
+            "{} of these modes grow, the fastest by {}. In this linear picture partial slip makes weak growth that changes with the mesh, so confirm it with more `belt.elements`",
             swing.len(),
             fastest(swing)
-        ),
-        (_, leave) => format!(
-            "A motion without swing grows by {}, as where a torque that drives rises with the speed: if more `belt.elements` confirm it, the drive does not stay in this state.",
+        )),
+        (_, leave) => Some(format!(
+            "a motion without swing grows by {}, as where a torque that drives rises with the speed: if more `belt.elements` confirm it, the drive does not stay in this state",
             fastest(leave)
-        ),
-    };
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "{stability}");
-    text
+        )),
+    }
 }

@@ -37,6 +37,12 @@ impl FieldPath {
         })
     }
 
+    /// The table of the drive that it is in: `belt`, or one of the pulleys.
+    pub fn table(&self) -> &[Segment] {
+        let of_a_list = matches!(self.0.get(1), Some(Segment::Item { .. }));
+        &self.0[..self.0.len().min(1 + usize::from(of_a_list))]
+    }
+
     fn with(&self, segment: Segment) -> Self {
         let mut path = self.clone();
         path.0.push(segment);

@@ -3,7 +3,7 @@
 use crate::assemble::is_guided;
 use crate::drive::{
     BeltElement, Contact, Drive, Friction, FrictionDirections, Integrator, Joint, PlateBending,
-    Pulley, Surface, Wrap,
+    Pulley, Run, Surface, Wrap,
 };
 use crate::input::check::own_name;
 use crate::input::problem::{FieldPath, Problem};
@@ -45,6 +45,10 @@ fn in_the_plane(drive: &Drive, problems: &mut Vec<Problem>) {
             "is for belts in space",
             OF_SPACE,
         ));
+    }
+    if drive.run.profile_line.to_bits() != Run::default().profile_line.to_bits() {
+        let line = FieldPath::default().field("run").field("profile_line");
+        problems.push(refuse(&line, "is for belts in space", OF_SPACE));
     }
 }
 

@@ -3,6 +3,9 @@
 use crate::drive::Drive;
 use crate::layout::Layout;
 
+/// Distance from the path, in smallest radii, whose digits tell nothing.
+const FLOWN: f64 = 100.0;
+
 /// Where on the drive a coordinate is, in words: the belt has `chain` coordinates, `dof` for each node.
 pub(super) fn place(
     drive: &Drive,
@@ -26,7 +29,9 @@ pub(super) fn place(
         .arcs
         .iter()
         .fold(f64::INFINITY, |r, arc| r.min(arc.radius));
-    if distance > smallest {
+    if distance.is_nan() || distance > FLOWN * smallest {
+        format!("where the belt has flown off, node {node}")
+    } else if distance > smallest {
         format!("where the belt has left its path by {distance:.3} m, {at}")
     } else if from == to {
         format!("on pulley `{}`, {at}", drive.pulley[from].name)

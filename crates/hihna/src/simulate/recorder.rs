@@ -67,6 +67,14 @@ struct Momentum {
     speed: f64,
 }
 
+impl Momentum {
+    /// Lets the torque act for `time` [s].
+    fn push(&mut self, time: f64) {
+        self.impulse += time * self.torque;
+        self.moved += time * self.torque.abs();
+    }
+}
+
 impl Recorder {
     pub fn new<E: Element, L: PulleyLaw<E>>(drive: &Drive, assembly: &Assembly<E, L>) -> Self {
         let names: Vec<String> = drive.pulley.iter().map(|p| p.name.clone()).collect();
@@ -152,35 +160,36 @@ impl Recorder {
 
         if t0 > self.last_time {
             // Forces have jumped since the last step.
-            self.observer.look(system, window.from);
-            self.powers = self.observer.powers(system, window.from);
-            for (p, momentum) in self.momenta.iter_mut().enumerate() {
-                momentum.torque = self.observer.momentum(system, window.from, p).1;
-            }
+            self.take(system, window.from);
         }
         self.last_time = t1;
-        // The trapezoidal rule is of second order as the schemes are. Simpson's rule on interpolated
-        // states left forty times the residual on the base case, probably because accelerations carry
-        // the noise of fast modes into velocities interpolated with them.
-        self.observer.look(system, window.to);
-        let last = self.observer.powers(system, window.to);
-        for (p, momentum) in self.momenta.iter_mut().enumerate() {
-            let (speed, torque) = self.observer.momentum(system, window.to, p);
-            momentum.impulse += 0.5 * step * (momentum.torque + torque);
-            momentum.moved += 0.5 * step * (momentum.torque.abs() + torque.abs());
-            momentum.torque = torque;
-            momentum.speed = speed;
-        }
+        // Integrated as the scheme does. Simpson's rule on interpolated states left forty times the residual on
+        // the base case, probably because accelerations carry the noise of fast modes into velocities
+        // interpolated with them.
+        let (middle, [start, between, end]) = match window.middle {
+            Some((state, weights)) => (Some(state), weights),
+            None => (None, [0.5, 0.0, 0.5]),
+        };
         let first = self.powers;
         let work_before = self.work;
-        // Integral of the line through the powers at both ends up to the part `s` of the step.
+        self.gather(step * start);
+        if let Some(state) = middle {
+            self.take(system, state);
+            self.gather(step * between);
+        }
+        self.take(system, window.to);
+        self.gather(step * end);
+        let (work_after, last) = (self.work, self.powers);
+        // Up to the part `s` of the step: the integral of the line through the powers at both ends, and of the
+        // whole step's the part beyond that.
         let work_until = |s: f64| {
+            let line = 0.5 * step * (s * s - s);
             work_before
-                .plus(step * (s - 0.5 * s * s), &first)
-                .plus(step * 0.5 * s * s, &last)
+                .plus(s, &work_after)
+                .plus(-s, &work_before)
+                .plus(line, &last)
+                .plus(-line, &first)
         };
-        self.work = work_until(1.0);
-        self.powers = last;
 
         let stored = self.observer.stored(system, window.to);
         let residual = self.residual(&stored, &self.work);
@@ -233,6 +242,23 @@ impl Recorder {
         self.state = state;
         self.recording += cpu.elapsed();
         pace
+    }
+
+    /// Takes powers and torques at `state`.
+    fn take<E: Element, L: PulleyLaw<E>>(&mut self, system: &System<E, L>, state: &Motion) {
+        self.observer.look(system, state);
+        self.powers = self.observer.powers(system, state);
+        for (p, momentum) in self.momenta.iter_mut().enumerate() {
+            (momentum.speed, momentum.torque) = self.observer.momentum(system, state, p);
+        }
+    }
+
+    /// Lets the powers and torques last taken act for `time` [s].
+    fn gather(&mut self, time: f64) {
+        self.work = self.work.plus(time, &self.powers);
+        for momentum in &mut self.momenta {
+            momentum.push(time);
+        }
     }
 
     /// Ends the records at `state`, before the time that `drive` names: the profile of the end is due now.
@@ -298,13 +324,16 @@ impl Recorder {
     }
 
     pub fn audit(&self, drive: &Drive) -> Audit {
-        // A drive at rest turns nothing over: compare with what the belt has stored.
+        // A drive at rest turns nothing over: steps follow no motion below the accuracy of its nominal speed, whose
+        // kinetic energy is then what a balance can be asked for, or a part of what the belt has stored.
         // One that begins in motion holds what a run-up would have turned over.
         let begun = match drive.run.start {
             Start::Steady => self.initial.kinetic,
             Start::Rest => 0.0,
         };
-        let scale = (self.work.turnover + begun).max(1.0e-6 * self.initial.total());
+        let scale = (self.work.turnover + begun)
+            .max(drive.run.accuracy * self.kinetic)
+            .max(1.0e-6 * self.initial.total());
         let torque_residual = self
             .momenta
             .iter()

@@ -7,13 +7,13 @@
 //! them
 //!
 //! ```text
-//! d_(k-1) <= a,  d_k <= a    and    d_k² / (d_(k-1) - d_k) <= a    or both below a / 10
+//! min [max(d_(k-1), d_k² / (d_(k-1) - d_k)), 10 max(d_(k-1), d_k)] <= a        (the first if d_k < d_(k-1))
 //! a = accuracy; where the scatter no longer shrinks, s_k >= 0.8 s_(k-1), at least the standard error s_k / sqrt(P) of a mean
 //! ```
 //!
-//! What the third says is left to come of changes that go on shrinking by the same factor. Coarse meshes shake the belt as elements pass, so
-//! that means are known to their standard error only. Changes below a tenth are taken for scatter: a mean that drifts more slowly
-//! than by that in a window is beyond this criterion.
+//! `d_k² / (d_(k-1) - d_k)` is left to come of changes that go on shrinking by the same factor; of others tenfold is taken. Coarse meshes
+//! shake the belt as elements pass, so that means are known to their standard error only. Changes below a tenth are taken for scatter: a
+//! mean that drifts more slowly than by that in a window is beyond this criterion.
 
 use std::f64::consts::TAU;
 
@@ -24,8 +24,8 @@ use crate::history::History;
 
 /// Least number of rows of the history in a window.
 const ROWS: f64 = 20.0;
-/// Part of the accuracy below which changes are scatter.
-const SCATTER: f64 = 0.1;
+/// What is left to come of changes that do not shrink, by the larger of the last two: a tenth of the accuracy is scatter.
+const NOT_SHRINKING: f64 = 10.0;
 /// Least ratio of the standard deviations of windows whose scatter no longer shrinks.
 const STATIONARY: f64 = 0.8;
 
@@ -40,9 +40,11 @@ pub struct Settling {
     pub to: f64,
     /// Length of a window [s].
     pub window: f64,
-    /// Change between the last two windows of the mean that changes most against what is allowed, relative to its nominal value [-];
-    /// not a number before there are two.
+    /// Change between the last two windows, relative to its nominal value [-], of the mean that has most left to come against what is
+    /// allowed; not a number before there are three windows.
     pub change: f64,
+    /// What its changes let expect to come [-]; not a number before there are three windows.
+    pub left: f64,
     /// What is allowed of it [-].
     pub tolerance: f64,
 }
@@ -107,6 +109,7 @@ impl Watch {
                 to: begins,
                 window: passages * passage,
                 change: f64::NAN,
+                left: f64::NAN,
                 tolerance: drive.run.accuracy,
             },
             read: 0,
@@ -165,12 +168,11 @@ impl Watch {
         }
         self.settling.to = self.begins;
         self.settling.from = self.begins - 2.0 * self.settling.window;
-        let [earlier @ .., before, last] = self.windows.as_slice() else {
+        let [earlier, before, last] = self.windows.as_slice() else {
             return;
         };
-        let mut settled = !earlier.is_empty();
         let mut worst = 0.0;
-        for (i, (before, last)) in before.iter().zip(last).enumerate() {
+        for ((earlier, before), last) in earlier.iter().zip(before).zip(last) {
             let stationary = last.deviation >= STATIONARY * before.deviation;
             let error = last.deviation / self.passages.sqrt();
             let allowed = if stationary {
@@ -179,26 +181,34 @@ impl Watch {
                 self.accuracy
             };
             let change = (last.mean - before.mean).abs();
-            if change / allowed >= worst {
-                worst = change / allowed;
+            let left = left_to_come((before.mean - earlier.mean).abs(), change);
+            // Not a number is worse than any.
+            if left.is_nan() || left / allowed >= worst {
+                worst = if left.is_nan() {
+                    f64::INFINITY
+                } else {
+                    left / allowed
+                };
                 self.settling.change = change;
+                self.settling.left = left;
                 self.settling.tolerance = allowed;
             }
-            if let [earlier] = earlier {
-                let changed = (before.mean - earlier[i].mean).abs();
-                settled &= is_settled(changed, change, allowed);
-            }
         }
-        self.settling.reached = settled;
+        self.settling.reached = worst <= 1.0;
     }
 }
 
-/// The criterion for the changes of one mean.
-fn is_settled(before: f64, last: f64, tolerance: f64) -> bool {
-    // Not a number is within nothing.
-    let within = |limit: f64| before <= limit && last <= limit;
-    let remaining = last * last / (before - last);
-    within(SCATTER * tolerance) || (within(tolerance) && last < before && remaining <= tolerance)
+/// What two changes, one after the other, let expect to come.
+fn left_to_come(before: f64, last: f64) -> f64 {
+    if before.is_nan() || last.is_nan() {
+        return f64::NAN;
+    }
+    let steady = NOT_SHRINKING * before.max(last);
+    if last < before {
+        before.max(last * last / (before - last)).min(steady)
+    } else {
+        steady
+    }
 }
 
 /// When the profiles of `drive` have come to their last values [s].
@@ -231,7 +241,7 @@ fn least_window(drive: &Drive, mounting: &Mounting) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::is_settled;
+    use super::left_to_come;
 
     /// Means that come to rest by the factor q a window, `m_k = q^k`: after the changes `d`, `q d`, what is left is `q² d/(1 - q)` exactly,
     /// however slow.
@@ -242,9 +252,11 @@ mod tests {
                 let error = q.powi(k + 2);
                 let before = q.powi(k) - q.powi(k + 1);
                 let last = q.powi(k + 1) - error;
-                if is_settled(before, last, 1.0e-3) && before > 1.0e-4 {
-                    assert!(error <= 1.0e-3 * (1.0 + 1.0e-9), "{q}: {error}");
-                }
+                let expected = left_to_come(before, last);
+                assert!(
+                    error <= expected * (1.0 + 1.0e-9) || 10.0 * before <= expected,
+                    "{q}: {error}"
+                );
             }
         }
     }
@@ -252,9 +264,9 @@ mod tests {
     /// Scatter may grow, larger changes may not.
     #[test]
     fn scatter_and_growth() {
-        assert!(is_settled(1.0e-5, 9.0e-5, 1.0e-3));
-        assert!(!is_settled(1.0e-4, 5.0e-4, 1.0e-3));
-        assert!(!is_settled(f64::NAN, 0.0, 1.0e-3));
-        assert!(!is_settled(2.0e-3, 1.0e-5, 1.0e-3));
+        assert!(left_to_come(1.0e-5, 9.0e-5) <= 1.0e-3);
+        assert!(left_to_come(1.0e-4, 5.0e-4) > 1.0e-3);
+        assert!(left_to_come(f64::NAN, 0.0).is_nan() && left_to_come(0.0, f64::NAN).is_nan());
+        assert!(left_to_come(2.0e-3, 1.0e-5) > 1.0e-3);
     }
 }

@@ -77,6 +77,8 @@ use equations::Equations;
 use modes::{Mode, NoModes};
 use newton::Newton;
 
+/// Part of the tension at rest beyond which centrifugal forces may be what lifts a belt off its pulleys.
+const LIFT_OFF: f64 = 0.9;
 /// Relative power residual beyond which a solution deserves a warning.
 pub const POWER_TOLERANCE: f64 = 1.0e-3;
 /// A drive that turns hardly any power over is judged by this part of the power that its tension on the rigid path would
@@ -101,6 +103,16 @@ pub enum RunningError {
     /// A field cannot have this value.
     #[error("{0}")]
     Field(String),
+    /// Derivatives did not converge.
+    #[error(
+        "the derivatives by `{field}` were not found: the last correction is {left:.0e} m per unit of it"
+    )]
+    Derivatives {
+        /// The field.
+        field: String,
+        /// Last correction [m per unit of the field].
+        left: f64,
+    },
     /// Solutions were lost on the way from the drive without torques.
     #[error(
         "no steady running was found: raising the torques from none, solutions were followed to {factor:.4} times those of the drive"
@@ -110,19 +122,46 @@ pub enum RunningError {
         factor: f64,
     },
     /// Not even the drive without its torques was found to run.
+    #[error("no steady running was found, not even without torques{0}")]
+    NotFound(Obstacle),
+}
+
+/// What stands in the way of steady running, as far as it can be told.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Obstacle {
+    /// The belt lifts off its pulleys.
     #[error(
-        "no steady running was found, not even without torques: at {speed:.4} m/s the belt needs {centrifugal:.4} N to stay on the pulleys and has {tension:.4} N at rest (last correction {correction:.1e} m)"
+        ": at {speed:.4} m/s the belt needs {centrifugal:.4} N to stay on the pulleys and has {tension:.4} N at rest"
     )]
-    NotFound {
+    LiftOff {
         /// Speed of the belt [m/s].
         speed: f64,
         /// Its centrifugal tension `rho A v²` [N].
         centrifugal: f64,
         /// Its tension at rest [N].
         tension: f64,
-        /// Last correction of the iteration [m].
-        correction: f64,
     },
+    /// Sections that turn in bending pass their waves on behind the belt: `rho v² > alpha2 E`.
+    #[error(
+        ": at {speed:.4} m/s the belt runs faster than waves of its bending do in it, {waves:.4} m/s, and no shape stands still"
+    )]
+    BendingWaves {
+        /// Speed of the belt [m/s].
+        speed: f64,
+        /// `sqrt(alpha2 E / rho)` [m/s].
+        waves: f64,
+    },
+    /// Pulleys that are driven at different speeds drag the belt along.
+    #[error(": the surfaces of driven pulleys run at {slowest:.6} to {fastest:.6} m/s")]
+    Drivers {
+        /// Least surface speed of a driver [m/s].
+        slowest: f64,
+        /// Largest one [m/s].
+        fastest: f64,
+    },
+    /// Nothing is known.
+    #[error("")]
+    Unknown,
 }
 
 impl RunningError {
@@ -253,6 +292,8 @@ pub struct RunningBelt<E> {
     inertias: Vec<f64>,
     /// Mass per unstretched length [kg/m].
     line_density: f64,
+    /// Speed of waves of bending in the belt, `sqrt(alpha2 E / rho)` [m/s].
+    bending_waves: f64,
     equations: Equations<E>,
     newton: Newton,
     guess: Vec<f64>,
@@ -283,10 +324,9 @@ impl<E: BeltElementType> RunningBelt<E> {
     pub fn solve(&mut self) -> Result<Answer, RunningError> {
         self.newton.factorizations = 0;
         let mut z = self.guess.clone();
-        let failure = match self.newton(&mut z) {
-            Ok(found) => return Ok(self.unless_sliding(z, found.iterations, Found::Directly)),
-            Err(failure) => failure,
-        };
+        if let Ok(found) = self.newton(&mut z) {
+            return Ok(self.unless_sliding(z, found.iterations, Found::Directly));
+        }
         if let Ok(found) = self.by_easier_friction(&mut z) {
             return Ok(self.unless_sliding(z, found.iterations, Found::EasierFriction));
         }
@@ -294,7 +334,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             Some(Way::Reached(z)) => Ok(self.answer(z, 0, Found::GivenSlip)),
             Some(Way::Exhausted(capacity)) => Ok(Answer::GrossSlip(GrossSlip { capacity })),
             Some(Way::Lost(factor)) => Err(RunningError::Lost { factor }),
-            None => Err(self.not_found(failure.correction)),
+            None => Err(self.not_found()),
         }
     }
 
@@ -329,14 +369,36 @@ impl<E: BeltElementType> RunningBelt<E> {
         Some(self.unless_sliding(z, found.iterations, Found::Directly))
     }
 
-    fn not_found(&self, correction: f64) -> RunningError {
+    fn not_found(&self) -> RunningError {
         let speed = self.guess[self.equations.circulation()].abs();
-        RunningError::NotFound {
-            speed,
-            centrifugal: self.line_density * speed * speed,
-            tension: self.start.tension,
-            correction,
-        }
+        let centrifugal = self.line_density * speed * speed;
+        let tension = self.start.tension;
+        let drivers = || {
+            let surfaces = self
+                .equations
+                .prescribed
+                .iter()
+                .zip(&self.assembly.layout.arcs);
+            surfaces.filter_map(|(speed, arc)| speed.map(|speed| speed.abs() * arc.radius))
+        };
+        let slowest = drivers().fold(f64::INFINITY, f64::min);
+        let fastest = drivers().fold(0.0, f64::max);
+        RunningError::NotFound(if centrifugal > LIFT_OFF * tension {
+            Obstacle::LiftOff {
+                speed,
+                centrifugal,
+                tension,
+            }
+        } else if speed > self.bending_waves {
+            Obstacle::BendingWaves {
+                speed,
+                waves: self.bending_waves,
+            }
+        } else if fastest > slowest {
+            Obstacle::Drivers { slowest, fastest }
+        } else {
+            Obstacle::Unknown
+        })
     }
 
     /// The most that the drive carries, from the state in which it runs; nothing where no torque acts.

@@ -58,10 +58,10 @@ pub(super) fn of_settling(settling: &Settling) -> Option<String> {
     if settling.reached {
         return None;
     }
-    let seen = if settling.change.is_finite() {
+    let seen = if settling.left.is_finite() {
         format!(
-            "the means of the last two windows of {:.4} s differ by {:.1e} of the nominal values, {:.0e} is allowed",
-            settling.window, settling.change, settling.tolerance
+            "as the means of windows of {:.4} s have changed, {:.1e} of a nominal value may be left to come, {:.1e} is allowed (the last change was {:.1e})",
+            settling.window, settling.left, settling.tolerance, settling.change
         )
     } else {
         format!(

@@ -106,6 +106,16 @@ impl Loaded {
         Ok(self.swing(span, LAST)? / self.swing(span, FIRST)?)
     }
 
+    /// Swing of a span in the last 0.1 s over its largest in 0.1 s of the ramp.
+    fn dying(&self, span: &str) -> Result<f64, CaseError> {
+        let mut largest = 0.0;
+        for i in 0..5 {
+            let from = RAMP[0] + 0.1 * f64::from(i);
+            largest = f64::max(largest, self.swing(span, [from, from + 0.1])?);
+        }
+        Ok(self.swing(span, LAST)? / largest)
+    }
+
     /// Mean of a span's swings in equal parts of the ramp [m].
     fn envelope(&self, span: &str) -> Result<f64, CaseError> {
         let width = (RAMP[1] - RAMP[0]) / ENVELOPE as f64;
@@ -274,6 +284,14 @@ fn spans(name: &str, loaded: &Loaded) -> Result<Quantities, CaseError> {
         (
             format!("slack span's swing after the ramp, end over begin, {name}"),
             loaded.decay(SLACK)?,
+        ),
+        (
+            format!("tight span's swing at the end over that in the ramp, {name}"),
+            loaded.dying(TIGHT)?,
+        ),
+        (
+            format!("slack span's swing at the end over that in the ramp, {name}"),
+            loaded.dying(SLACK)?,
         ),
     ])
 }

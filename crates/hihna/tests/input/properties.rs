@@ -265,7 +265,7 @@ fn run() -> impl Strategy<Value = Run> {
             } else {
                 Vec::new()
             },
-            profile_line: part,
+            profile_line: Run::default().profile_line,
             frame_interval: flag.then_some(end_time * part),
             frame_start: if flag { end_time * when } else { 0.0 },
         },

@@ -13,12 +13,15 @@
 
 use super::map::{Axis, at_values};
 use super::modes::Mode;
-use super::{Answer, RunningBelt, RunningError};
+use super::{Answer, Running, RunningBelt, RunningError};
 use crate::assemble::BeltElementType;
 use crate::drive::Drive;
 
-/// Modes found beside those asked for: they may come down among them at the next value.
+/// Modes found beside those asked for: others may come down among them at the next value.
 const SPARE: usize = 4;
+/// Most of them, by those asked for, that are looked through for the modes that are followed: creep has many of low frequency that hardly
+/// swing.
+const MOST_SPARE: usize = 8;
 /// Least similarity of two modes that are taken for one.
 const SIMILAR: f64 = 0.5;
 
@@ -59,15 +62,21 @@ pub struct FollowedMode {
     pub similarity: f64,
 }
 
-/// Finds the first `count` modes of `drive` at the first value of `axis` at which it runs, and follows them.
-pub fn campbell(drive: &Drive, axis: &Axis, count: usize) -> Result<Campbell, RunningError> {
-    with_belt_element!(drive, Element => of_elements::<Element>(drive, axis, count))
+/// Finds the first `count` modes of `drive` at the first value of `axis` at which it runs, and follows them, telling `done` of every value.
+pub fn campbell(
+    drive: &Drive,
+    axis: &Axis,
+    count: usize,
+    done: impl Fn(),
+) -> Result<Campbell, RunningError> {
+    with_belt_element!(drive, Element => of_elements::<Element>(drive, axis, count, &done))
 }
 
 fn of_elements<E: BeltElementType>(
     drive: &Drive,
     axis: &Axis,
     count: usize,
+    done: &dyn Fn(),
 ) -> Result<Campbell, RunningError> {
     let mut points = Vec::with_capacity(axis.values.len());
     // Of every mode that is followed, how it looked last.
@@ -80,11 +89,11 @@ fn of_elements<E: BeltElementType>(
             modes: vec![None; count],
         };
         let there = at_values(drive, std::slice::from_ref(axis), &[value]);
-        match there.and_then(|there| running(&there)) {
+        match there.and_then(|there| running::<E>(&there)) {
             Ok((mut belt, Answer::Running(found))) => {
                 point.answer = "running";
-                let modes = belt.modes(&found, count + SPARE)?;
-                follow::<E>(&modes, &belt, &mut known, &mut point);
+                let (modes, looks) = find(&mut belt, &found, &known, count)?;
+                follow(&modes, looks, &mut known, &mut point);
             }
             Ok((_, Answer::GrossSlip(_))) => point.answer = "gross-slip",
             Ok((_, Answer::Slack(_))) => point.answer = "slack",
@@ -92,6 +101,7 @@ fn of_elements<E: BeltElementType>(
             Err(error) => refused = refused.or(Some(error)),
         }
         points.push(point);
+        done();
     }
     match refused {
         Some(error) if points.iter().all(|point| point.answer == "none") => Err(error),
@@ -103,17 +113,36 @@ fn of_elements<E: BeltElementType>(
     }
 }
 
+/// The first modes and how they look: as many as it takes to find all that are `known` among them, within bounds.
+fn find<E: BeltElementType>(
+    belt: &mut RunningBelt<E>,
+    running: &Running,
+    known: &[Velocities],
+    count: usize,
+) -> Result<(Vec<Mode>, Vec<Velocities>), RunningError> {
+    let masses = belt.nodal_masses();
+    let mut wanted = count + SPARE;
+    let most = MOST_SPARE * wanted;
+    loop {
+        let modes = belt.modes(running, wanted)?;
+        let looks: Vec<_> = (modes.iter())
+            .map(|mode| Velocities::new(mode, &masses, belt))
+            .collect();
+        let complete = pairs(known, &looks).len() == known.len();
+        if complete || modes.len() < wanted || wanted >= most {
+            return Ok((modes, looks));
+        }
+        wanted *= 2;
+    }
+}
+
 /// Takes the modes of a point for those that they resemble among the `known`, which move with them; the first point's are followed.
-fn follow<E: BeltElementType>(
+fn follow(
     modes: &[Mode],
-    belt: &RunningBelt<E>,
+    looks: Vec<Velocities>,
     known: &mut Vec<Velocities>,
     point: &mut CampbellPoint,
 ) {
-    let masses = belt.nodal_masses();
-    let looks: Vec<_> = (modes.iter())
-        .map(|mode| Velocities::new::<E>(mode, &masses, belt))
-        .collect();
     if known.is_empty() {
         for (slot, mode) in point.modes.iter_mut().zip(modes) {
             *slot = Some(FollowedMode::new(mode, 1.0));

@@ -39,6 +39,9 @@ const GAIN: f64 = 1.0e-4;
 const GAIN_OF_SLIDING: f64 = 1.0e-2;
 /// Part of an arc that slides where all of it does: at its ends, where the belt crosses the pulley's surface, slip may have another sign.
 const SLIDING: f64 = 0.98;
+/// Part of the most that is carried by which it has been narrowed down, and less than it that counts as round-off.
+const NARROW: f64 = 1.0e-5;
+const FLAT: f64 = 1.0e-8;
 /// Gain below which nothing is missed where the solutions are lost.
 const UNKNOWN_GAIN: f64 = 1.0e-3;
 
@@ -100,30 +103,27 @@ impl<E: BeltElementType> RunningBelt<E> {
         };
         let (mut done, mut step) = (0.0_f64, 0.25_f64);
         let mut found = set(self, 0.0, z)?;
-        let mut failure = NotFound {
-            correction: f64::INFINITY,
-        };
         for _ in 0..MAX_STAGES {
             if done >= 1.0 {
                 return Ok(found);
             }
             let next = (done + step).min(1.0);
-            match set(self, next, z) {
-                Ok(converged) => {
-                    found = converged;
-                    done = next;
-                    step *= 2.0;
-                }
-                Err(not_found) => {
-                    failure = not_found;
-                    step *= 0.25;
-                    if step < SMALLEST_PART {
-                        break;
-                    }
+            if let Ok(converged) = set(self, next, z) {
+                found = converged;
+                done = next;
+                step *= 2.0;
+            } else {
+                step *= 0.25;
+                if step < SMALLEST_PART {
+                    break;
                 }
             }
         }
-        if done >= 1.0 { Ok(found) } else { Err(failure) }
+        if done >= 1.0 {
+            Ok(found)
+        } else {
+            Err(NotFound)
+        }
     }
 
     /// The way from the drive without its torques; nothing where none act or that does not run.
@@ -144,7 +144,10 @@ impl<E: BeltElementType> RunningBelt<E> {
         let mut idle = self.guess.clone();
         idle[self.equations.load()] = 0.0;
         self.equations.control = Control::Load(0.0);
-        let found = self.newton(&mut idle);
+        let mut found = self.newton(&mut idle);
+        if found.is_err() {
+            found = self.by_easier_friction(&mut idle);
+        }
         self.equations.control = Control::Load(1.0);
         found.ok().map(|_| idle)
     }
@@ -160,27 +163,19 @@ impl<E: BeltElementType> RunningBelt<E> {
         Some(way)
     }
 
-    fn raise_slip(&mut self, mut z: Vec<f64>, none: f64, wanted: Option<f64>) -> Way {
+    fn raise_slip(&mut self, z: Vec<f64>, none: f64, wanted: Option<f64>) -> Way {
         let load = self.equations.load();
         let travel: f64 = (self.equations.slip_weights.iter().enumerate())
             .map(|(p, weight)| (weight * self.guess[self.equations.chain() + p]).abs())
             .fold(0.0, f64::max);
-        let mut slip = self.equations.slip(&z);
         let mut step = FIRST_SLIP * travel;
-        let mut best = z.clone();
         let mut flat = 0;
         let mut gain = f64::INFINITY;
         let mut trial = z.clone();
-        // The solution before and how much slip lies between: the next begins on the line through both.
-        let mut before: Option<(Vec<f64>, f64)> = None;
+        let mut way = Trail(vec![self.stage(z)]);
         for _ in 0..MAX_STAGES {
-            trial.copy_from_slice(&z);
-            if let Some((before, between)) = &before {
-                for ((trial, now), before) in trial.iter_mut().zip(&z).zip(before) {
-                    *trial += step / between * (now - before);
-                }
-            }
-            self.equations.control = Control::Slip(slip + step);
+            way.predict(step, &mut trial);
+            self.equations.control = Control::Slip(way.last().slip + step);
             let found = self
                 .newton
                 .solve(&mut self.equations, &mut trial, STAGE_ITERATIONS);
@@ -191,8 +186,19 @@ impl<E: BeltElementType> RunningBelt<E> {
                 }
                 continue;
             }
-            if let Some(wanted) = wanted.filter(|wanted| trial[load] >= *wanted) {
-                if let Some(reached) = self.at_load(&z, &trial, wanted) {
+            let (before, next) = (way.last(), self.stage(trial.clone()));
+            // Steps after a failure are short: what counts is the gain to come of twice the slip.
+            let gained = if next.slip > none {
+                (next.carried - before.carried) / step * (next.slip - none) / next.carried.abs()
+            } else {
+                f64::INFINITY
+            };
+            // A load that falls with the speed is met by slipping, too, without being carried.
+            let shed = gained < GAIN
+                && next.carried / before.carried < 0.999_999 * next.z[load] / before.z[load];
+            let reached = wanted.filter(|wanted| next.z[load] >= *wanted && !shed);
+            if let Some(wanted) = reached {
+                if let Some(reached) = self.at_load(&before.z, &next.z, wanted) {
                     return Way::Reached(reached);
                 }
                 step *= 0.25;
@@ -201,32 +207,65 @@ impl<E: BeltElementType> RunningBelt<E> {
                 }
                 continue;
             }
-            // Steps after a failure are short: what counts is the gain to come of twice the slip.
-            slip += step;
-            let (carried, more) = (self.carried(&z), self.carried(&trial));
-            gain = if slip > none {
-                (more - carried) / step * (slip - none) / more.abs()
-            } else {
-                f64::INFINITY
-            };
+            gain = gained;
             flat = if gain < GAIN { flat + 1 } else { 0 };
-            before = Some((z.clone(), step));
-            z.copy_from_slice(&trial);
-            if z[load] > best[load] {
-                best.copy_from_slice(&z);
-            }
-            if flat >= 2 || (gain < GAIN_OF_SLIDING && self.slides(&z)) {
-                return Way::Exhausted(self.capacity_at(&best));
+            let slides = gain < GAIN_OF_SLIDING && self.slides(&next.z);
+            way.0.push(next);
+            if flat >= 2 || slides {
+                return Way::Exhausted(self.capacity_on(way));
             }
             step *= 2.0;
         }
         // Solutions are lost where the last points of an arc begin to slide, with the load all but exhausted. Anywhere else nothing is
         // known of those beyond.
-        if gain < UNKNOWN_GAIN || (gain < GAIN_OF_SLIDING && self.slides(&z)) {
-            Way::Exhausted(self.capacity_at(&best))
+        let sliding = gain < GAIN_OF_SLIDING && self.slides(&way.last().z.clone());
+        if gain < UNKNOWN_GAIN || sliding {
+            Way::Exhausted(self.capacity_on(way))
         } else {
-            Way::Lost(best[load])
+            let loads = way.0.iter().map(|stage| stage.z[load]);
+            Way::Lost(loads.fold(0.0, f64::max))
         }
+    }
+
+    fn stage(&self, z: Vec<f64>) -> Stage {
+        Stage {
+            slip: self.equations.slip(&z),
+            carried: self.carried(&z),
+            z,
+        }
+    }
+
+    /// The most that is carried on `way`. Where more slip carries less, as with friction that falls with the slip, it lies between the
+    /// stages.
+    fn capacity_on(&mut self, mut way: Trail) -> Capacity {
+        for _ in 0..MAX_STAGES {
+            let Some(middle) = way.falls_beside() else {
+                break;
+            };
+            let [low, high] = [middle - 1, middle].map(|i| &way.0[i]);
+            let mut z: Vec<f64> = (low.z.iter().zip(&high.z))
+                .map(|(a, b)| 0.5 * (a + b))
+                .collect();
+            self.equations.control = Control::Slip(0.5 * (low.slip + high.slip));
+            let found = self
+                .newton
+                .solve(&mut self.equations, &mut z, STAGE_ITERATIONS);
+            if found.is_err() {
+                break;
+            }
+            way.0.insert(middle, self.stage(z));
+        }
+        let most = &way.0[way.most()];
+        // Loads that fall with the speed are multiplied as long as slip does not slow the pulleys down.
+        let first = way
+            .0
+            .iter()
+            .find(|stage| stage.carried >= (1.0 - GAIN) * most.carried);
+        let first = first.unwrap_or(most);
+        let load = self.equations.load();
+        let factor = first.z[load] * most.carried / first.carried;
+        let z = most.z.clone();
+        self.capacity_at(factor, &z)
     }
 
     /// What the external torques in the state `z` come to, as forces on the belt [N].
@@ -263,8 +302,8 @@ impl<E: BeltElementType> RunningBelt<E> {
             .any(|(p, transmits)| transmits && sliding_part(p) > SLIDING)
     }
 
-    /// The state `z` read as the most that the drive carries.
-    fn capacity_at(&mut self, z: &[f64]) -> Capacity {
+    /// The state `z` read as the most that the drive carries, `factor` times its torques.
+    fn capacity_at(&mut self, factor: f64, z: &[f64]) -> Capacity {
         let found = self.observe(z);
         let pulley = (0..found.pulleys.len()).fold(0, |most, p| {
             if sliding_part(&found.pulleys[p]) > sliding_part(&found.pulleys[most]) {
@@ -275,7 +314,7 @@ impl<E: BeltElementType> RunningBelt<E> {
         });
         let torques = found.pulleys.iter().map(|p| p.external_torque).collect();
         Capacity {
-            factor: z[self.equations.load()],
+            factor,
             pulley,
             torques,
             slack_tension: found
@@ -283,6 +322,61 @@ impl<E: BeltElementType> RunningBelt<E> {
                 .iter()
                 .fold(f64::INFINITY, |t, s| t.min(s.tension)),
         }
+    }
+}
+
+/// A solution on the way of rising slip.
+struct Stage {
+    slip: f64,
+    /// What the torques come to, as forces on the belt [N].
+    carried: f64,
+    z: Vec<f64>,
+}
+
+/// The solutions on the way, by rising slip; one at least.
+struct Trail(Vec<Stage>);
+
+impl Trail {
+    fn last(&self) -> &Stage {
+        &self.0[self.0.len() - 1]
+    }
+
+    /// Writes where the line through the last two solutions is after `step` more slip; the last, where there is no other.
+    fn predict(&self, step: f64, z: &mut [f64]) {
+        let now = self.last();
+        z.copy_from_slice(&now.z);
+        if let [.., before, _] = self.0.as_slice() {
+            let part = step / (now.slip - before.slip);
+            for ((z, now), before) in z.iter_mut().zip(&now.z).zip(&before.z) {
+                *z += part * (now - before);
+            }
+        }
+    }
+
+    /// The stage that carries most.
+    fn most(&self) -> usize {
+        (0..self.0.len()).fold(0, |most, i| {
+            if self.0[i].carried > self.0[most].carried {
+                i
+            } else {
+                most
+            }
+        })
+    }
+
+    /// The stage before which one more narrows the maximum down: the wider side of the one that carries most, as long as a neighbour
+    /// carries clearly less and so much more may be found between.
+    fn falls_beside(&self) -> Option<usize> {
+        let most = self.most();
+        let [before, at, after] = [most.checked_sub(1)?, most, most + 1].map(|i| self.0.get(i));
+        let (before, at, after) = (before?, at?, after?);
+        let falls = (at.carried - before.carried).max(at.carried - after.carried);
+        let ends = at.carried - after.carried > FLAT * at.carried;
+        if !ends || falls <= NARROW * at.carried {
+            return None;
+        }
+        let wider = after.slip - at.slip > at.slip - before.slip;
+        Some(if wider { most + 1 } else { most })
     }
 }
 

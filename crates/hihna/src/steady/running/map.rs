@@ -43,12 +43,12 @@ pub struct Row {
     pub error: Option<RunningError>,
 }
 
-/// Solves `drive` at every combination of `axes`.
-pub fn map(drive: &Drive, axes: &[Axis]) -> Map {
-    with_belt_element!(drive, Element => of_elements::<Element>(drive, axes))
+/// Solves `drive` at every combination of `axes`, telling `done` of every point.
+pub fn map(drive: &Drive, axes: &[Axis], done: impl Fn() + Sync) -> Map {
+    with_belt_element!(drive, Element => of_elements::<Element>(drive, axes, &done))
 }
 
-fn of_elements<E: BeltElementType>(drive: &Drive, axes: &[Axis]) -> Map {
+fn of_elements<E: BeltElementType>(drive: &Drive, axes: &[Axis], done: &(dyn Fn() + Sync)) -> Map {
     let columns = columns(drive, axes);
     let points: usize = axes.iter().map(|axis| axis.values.len()).product();
     let torque = |axis: &Axis| axis.field.key.ends_with(".torque");
@@ -69,7 +69,7 @@ fn of_elements<E: BeltElementType>(drive: &Drive, axes: &[Axis]) -> Map {
         .collect();
     let width = columns.len();
     let solved: Vec<(usize, Row)> = (lines.par_iter())
-        .flat_map_iter(|line| solve_line::<E>(drive, axes, line, width))
+        .flat_map_iter(|line| solve_line::<E>(drive, axes, line, width, done))
         .collect();
     let mut rows = vec![
         Row {
@@ -132,6 +132,7 @@ fn solve_line<E: BeltElementType>(
     axes: &[Axis],
     line: &[usize],
     width: usize,
+    done: &(dyn Fn() + Sync),
 ) -> Vec<(usize, Row)> {
     let mut neighbour: Option<Neighbour<E>> = None;
     let mut known: Option<(Drive, Capacity)> = None;
@@ -154,6 +155,7 @@ fn solve_line<E: BeltElementType>(
                 Err(error) => row.error = Some(error),
             }
             row.values.resize(width, f64::NAN);
+            done();
             (point, row)
         })
         .collect()

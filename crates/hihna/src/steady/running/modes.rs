@@ -8,9 +8,17 @@
 //! ```
 //!
 //! The exponents s nearest a small shift `sigma` are found by Arnoldi's method on `(A - sigma B)^-1 B`; a step costs one
-//! solution with the cyclic matrix `K + sigma D + sigma² M`, `D = c G + C`, and all factors are kept. The shift of the belt
-//! along itself is neutral (`s = 0`, `u = R'`) and left out: of the motions without swing that resemble it the one of the least exponent.
-//! Driving speeds and torques are held.
+//! solution with the cyclic matrix `K + sigma D + sigma² M`, `D = c G + C`, and all factors are kept. Driving speeds and torques are held.
+//!
+//! The shift of the belt along itself is neutral: `u = R'`, `s = 0`. On a mesh it is not quite, and where little friction holds the belt, an
+//! artificial growth or swing of several 1/s could be made of that. So what the mesh does to the shift x, the vector nearest to R' that K
+//! hardly resists, is taken out,
+//!
+//! ```text
+//! K - (K x) (M x)^T / (x^T M x),      and the rows of the pulleys likewise,
+//! ```
+//!
+//! which makes x neutral exactly, to be left out by its exponent.
 //!
 //! Dry friction follows the motion: with partial slip some modes grow weakly in this linear picture, at rates that change
 //! with the mesh. A growth counts only where a finer mesh confirms it.
@@ -31,8 +39,10 @@ const TOLERANCE: f64 = 1.0e-9;
 const ROUND_OFF: f64 = 1.0e-12;
 /// Largest space searched.
 const MOST_DIRECTIONS: usize = 400;
-/// Least similarity of the neutral shift to a unit motion of all nodes along the path.
-const ALONG: f64 = 0.9;
+/// Exponents below this are neutral [1/s]: where hardly any friction acts, two that are zero mix, and round-off parts them by its root.
+const NEUTRAL: f64 = 1.0e-4;
+/// Steps of inverse iteration from the difference quotient of R to the shift.
+const REFINEMENTS: usize = 3;
 /// Frequencies below this part of the growth are motions without swing.
 const APERIODIC: f64 = 1.0e-9;
 
@@ -80,14 +90,14 @@ impl<E: BeltElementType> RunningBelt<E> {
         }
         let matrices = self.matrices(&running.state);
         let mut operator = Operator::new(&matrices, self.equations.chain())?;
+        operator.free(&self.shift(running));
         let most = operator.size().min(MOST_DIRECTIONS);
         let mut directions = (4 * count + 60).min(most);
         loop {
             let found = arnoldi(&mut operator, directions)?;
-            let neutral = self.neutral(&found, running);
-            let mut modes: Vec<Mode> = (found.iter().enumerate())
-                .filter(|(i, pair)| Some(*i) != neutral && (pair.swings() || pair.value[0] > 0.0))
-                .map(|(_, pair)| self.mode(pair, &matrices))
+            let mut modes: Vec<Mode> = (found.iter())
+                .filter(|pair| !pair.is_neutral() && (pair.swings() || pair.value[0] > 0.0))
+                .map(|pair| self.mode(pair, &matrices))
                 .collect();
             if modes.len() >= count || directions == most {
                 modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
@@ -131,34 +141,21 @@ impl<E: BeltElementType> RunningBelt<E> {
         }
     }
 
-    /// Which of the eigenpairs is the shift of the belt along itself: the least of those that move its nodes along the path. On a coarse mesh
-    /// it is not quite neutral.
-    fn neutral(&self, pairs: &[Pair], running: &Running) -> Option<usize> {
-        let chain = self.equations.chain();
-        let nodes: Vec<&[f64]> = running.state[..chain].chunks_exact(E::NODE_DOF).collect();
-        let count = nodes.len();
-        let along: Vec<[f64; 2]> = (0..count)
-            .map(|k| {
-                let (before, after) = (nodes[(k + count - 1) % count], nodes[(k + 1) % count]);
-                let [x, y] = [after[0] - before[0], after[1] - before[1]];
-                [x / x.hypot(y), y / x.hypot(y)]
-            })
+    /// Difference quotient of the coordinates along the belt: nearly the motion of the belt along itself.
+    fn shift(&self, running: &Running) -> Vec<f64> {
+        let elements = self.equations.mesh.elements();
+        let nodes: Vec<&[f64]> = running.state[..self.equations.chain()]
+            .chunks_exact(E::NODE_DOF)
             .collect();
-        let similarity = |pair: &Pair| {
-            let (mut product, mut square) = ([0.0; 2], 0.0);
-            for (moved, t) in pair.vector[..chain].chunks_exact(E::NODE_DOF).zip(&along) {
-                for part in 0..2 {
-                    product[part] += moved[0][part] * t[0] + moved[1][part] * t[1];
-                    square += moved[0][part].powi(2) + moved[1][part].powi(2);
-                }
-            }
-            (product[0].powi(2) + product[1].powi(2)) / (square * count as f64)
-        };
-        let size = |pair: &Pair| pair.value[0].hypot(pair.value[1]);
-        (pairs.iter().enumerate())
-            .filter(|(_, pair)| !pair.swings() && similarity(pair) > ALONG)
-            .min_by(|a, b| size(a.1).total_cmp(&size(b.1)))
-            .map(|(i, _)| i)
+        let count = nodes.len();
+        (0..count)
+            .flat_map(|k| {
+                let (last, next) = ((k + count - 1) % count, (k + 1) % count);
+                let between = elements[last].length() + elements[k].length();
+                let pairs = nodes[next].iter().zip(nodes[last]);
+                pairs.map(move |(after, before)| (after - before) / between)
+            })
+            .collect()
     }
 
     fn mode(&self, pair: &Pair, matrices: &Matrices) -> Mode {
@@ -207,6 +204,17 @@ impl Pair {
     fn swings(&self) -> bool {
         self.value[1] > APERIODIC * self.value[0].abs()
     }
+
+    fn is_neutral(&self) -> bool {
+        self.value[0].hypot(self.value[1]) < NEUTRAL
+    }
+}
+
+/// What frees the shift x: `M x / (x^T M x)`, `Q(sigma)^-1 [K x; P_u x]`, and one less their product.
+struct Freed {
+    along: Vec<f64>,
+    answer: Vec<f64>,
+    rest: f64,
 }
 
 /// `(A - sigma B)^-1 B` on `[u, u', border]`.
@@ -214,6 +222,7 @@ struct Operator<'a> {
     matrices: &'a Matrices,
     solver: CyclicSolver,
     chain: usize,
+    freed: Option<Freed>,
     rates: Vec<f64>,
     right: Vec<f64>,
     damped: Vec<f64>,
@@ -239,6 +248,7 @@ impl<'a> Operator<'a> {
             matrices,
             solver,
             chain,
+            freed: None,
             rates: zeros.clone(),
             right: zeros.clone(),
             damped: zeros,
@@ -247,6 +257,34 @@ impl<'a> Operator<'a> {
 
     fn size(&self) -> usize {
         self.chain + self.right.len()
+    }
+
+    /// Makes the shift of the belt along itself near `guess` neutral.
+    fn free(&mut self, guess: &[f64]) {
+        let n = self.chain;
+        let mut state = vec![0.0; self.size()];
+        let mut image = state.clone();
+        state[..n].copy_from_slice(guess);
+        for _ in 0..REFINEMENTS {
+            self.apply(&state, &mut image);
+            state.copy_from_slice(&unit(&image));
+        }
+        let mut shift = vec![0.0; self.right.len()];
+        shift[..n].copy_from_slice(&state[..n]);
+        let (mut along, mut answer) = (shift.clone(), shift.clone());
+        self.matrices.mass.multiply(&shift, &mut along);
+        let mass = dot(&shift, &along);
+        for value in &mut along {
+            *value /= mass;
+        }
+        self.matrices.stiffness.multiply(&shift, &mut answer);
+        self.solver.solve(&mut answer);
+        let rest = 1.0 - dot(&along, &answer);
+        self.freed = Some(Freed {
+            along,
+            answer,
+            rest,
+        });
     }
 
     /// `-Q(sigma) [u; w] = M (v0 + sigma u0) + D u0; I w0 + P_v u0` and `v = u0 + sigma u`.
@@ -266,6 +304,13 @@ impl<'a> Operator<'a> {
             *r = -(*r + d);
         }
         self.solver.solve(&mut self.right);
+        if let Some(freed) = &self.freed {
+            // The matrix less one of rank one (Sherman and Morrison).
+            let part = dot(&freed.along, &self.right) / freed.rest;
+            for (x, answer) in self.right.iter_mut().zip(&freed.answer) {
+                *x += part * answer;
+            }
+        }
         for i in 0..n {
             out[i] = self.right[i];
             out[n + i] = y[i] + SHIFT * self.right[i];

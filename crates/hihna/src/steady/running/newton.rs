@@ -40,16 +40,11 @@ pub(super) struct Newton {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Converged {
     pub iterations: usize,
-    /// Last correction [m].
-    pub correction: f64,
 }
 
 /// No root was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct NotFound {
-    /// Last correction [m].
-    pub correction: f64,
-}
+pub(super) struct NotFound;
 
 impl Newton {
     pub fn new(structure: Structure) -> Self {
@@ -74,9 +69,7 @@ impl Newton {
     ) -> Result<(), NotFound> {
         equations.tangent(z, &mut self.matrix);
         self.factorizations += 1;
-        self.solver.factor(&self.matrix).map_err(|_| NotFound {
-            correction: f64::INFINITY,
-        })
+        self.solver.factor(&self.matrix).map_err(|_| NotFound)
     }
 
     /// Moves `z` to a root of `equations`; where there is none, `z` is left as it was.
@@ -100,14 +93,12 @@ impl Newton {
         z: &mut [f64],
         max_iterations: usize,
     ) -> Result<Converged, NotFound> {
-        let mut last = f64::INFINITY;
         equations.residual(z, &mut self.residual);
         for iteration in 1..=max_iterations {
             self.factor(equations, z)?;
             self.correction.copy_from_slice(&self.residual);
             self.solver.solve(&mut self.correction);
             let (size, largest) = norms(&self.correction, &equations.scales);
-            last = largest;
             if !size.is_finite() {
                 break;
             }
@@ -117,7 +108,6 @@ impl Newton {
                 }
                 return Ok(Converged {
                     iterations: iteration,
-                    correction: largest,
                 });
             }
             let mut step = (STEP_LIMIT / largest).min(1.0);
@@ -140,7 +130,6 @@ impl Newton {
                 if largest <= ROUND_OFF {
                     return Ok(Converged {
                         iterations: iteration,
-                        correction: largest,
                     });
                 }
                 break;
@@ -148,7 +137,7 @@ impl Newton {
             z.copy_from_slice(&self.trial);
             std::mem::swap(&mut self.residual, &mut self.trial_residual);
         }
-        Err(NotFound { correction: last })
+        Err(NotFound)
     }
 }
 

@@ -85,6 +85,9 @@ impl<E: BeltElementType> RunningBelt<E> {
             starts: starts.to_vec(),
             guess: vec![0.0; equations.structure().size()],
             line_density: drive.belt.density * drive.belt.width * drive.belt.thickness,
+            bending_waves: (drive.belt.bending_factor * drive.belt.youngs_modulus
+                / drive.belt.density)
+                .sqrt(),
             names,
             inertias,
             observer,

@@ -6,8 +6,15 @@
 //! J dz/dp = dF/dp      J = -dF/dz, the tangent of the last iteration      dy/dp = y_z dz/dp + y_p
 //! ```
 //!
-//! so that a field costs one solution with a factored matrix and no iteration. The partial derivative `dF/dp` at fixed z is
-//! taken from four residuals (error of order h⁴), and dy/dp along the line `z + h dz/dp`, `p + h` (order h²), with h a ten
+//! so that a field costs a few solutions with a factored matrix. `dz/dp` is corrected by what the residual along the line `z + h dz/dp`,
+//! `p + h` still changes,
+//!
+//! ```text
+//! J delta = d/dh F(z + h dz/dp, p + h)
+//! ```
+//!
+//! from zero on: once where J is exact, more often for bristles, whose phases in slip zones take part in J without their motion.
+//! The derivative along the line is taken from four residuals (error of order h⁴), and dy/dp along the same line (order h²), with h a ten
 //! millionth of the field. Larger steps meet corners of the contact law, which lie close together on coarse meshes: belts sink
 //! in by 1e-4 to 1e-3 of lengths. What round-off leaves is 1e-5 of E A over the field. The elements keep their parts of the
 //! belt, and the mesh its phase.
@@ -25,6 +32,12 @@ use crate::steady::drive_string::{DriveSensitivity, Input, Output};
 const STEP: f64 = 1.0e-7;
 /// Step of a field that is zero, SI.
 const STEP_FROM_ZERO: f64 = 1.0e-6;
+/// Correction of `dz/dp`, relative to it, that counts as converged.
+const CONVERGED: f64 = 1.0e-8;
+/// The same where round-off keeps corrections from shrinking.
+const ROUND_OFF: f64 = 1.0e-5;
+/// Most corrections.
+const MOST_CORRECTIONS: usize = 100;
 
 impl<E: BeltElementType> RunningBelt<E> {
     /// Derivatives of the results of `running`, the state in which this belt of `drive` runs, by `fields`.
@@ -37,7 +50,7 @@ impl<E: BeltElementType> RunningBelt<E> {
         let z = &running.state;
         self.newton
             .factor(&mut self.equations, z)
-            .map_err(|_| self.not_found(f64::INFINITY))?;
+            .map_err(|_| self.not_found())?;
         let outputs: Vec<Output> = self.results(drive, z);
         let mut inputs = Vec::with_capacity(fields.len());
         for field in fields {
@@ -47,16 +60,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             } else {
                 STEP * value.abs()
             };
-            let mut by_field = vec![0.0; z.len()];
-            let mut residual = vec![0.0; z.len()];
-            for (steps, weight) in [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)] {
-                let mut moved = self.neighbour(drive, field, value + steps * h)?;
-                moved.equations.residual(z, &mut residual);
-                for (sum, r) in by_field.iter_mut().zip(&residual) {
-                    *sum += weight / (12.0 * h) * r;
-                }
-            }
-            self.newton.solver.solve(&mut by_field);
+            let by_field = self.by_field(drive, z, (field, value, h))?;
             let mut ends = Vec::with_capacity(2);
             for step in [h, -h] {
                 let there: Vec<f64> = (z.iter().zip(&by_field))
@@ -79,6 +83,58 @@ impl<E: BeltElementType> RunningBelt<E> {
             });
         }
         Ok(DriveSensitivity { outputs, inputs })
+    }
+
+    /// `dz/dp` by the field of the value p, from steps h.
+    fn by_field(
+        &mut self,
+        drive: &Drive,
+        z: &[f64],
+        (field, value, h): (&NumberField, f64, f64),
+    ) -> Result<Vec<f64>, RunningError> {
+        let mut by_field = vec![0.0; z.len()];
+        let mut correction = vec![0.0; z.len()];
+        let (mut there, mut residual) = (z.to_vec(), z.to_vec());
+        let stencil = [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)];
+        let mut moved = Vec::with_capacity(stencil.len());
+        for (steps, weight) in stencil {
+            let belt = self.neighbour(drive, field, value + steps * h)?;
+            moved.push((belt, steps * h, weight / (12.0 * h)));
+        }
+        let scales = self.equations.scales.clone();
+        let size = |x: &[f64]| {
+            (x.iter().zip(&scales)).fold(0.0, |most: f64, (x, s)| most.max((x * s).abs()))
+        };
+        let mut before = f64::INFINITY;
+        for _ in 0..MOST_CORRECTIONS {
+            correction.fill(0.0);
+            for (belt, step, weight) in &mut moved {
+                for ((there, z), d) in there.iter_mut().zip(z).zip(&by_field) {
+                    *there = z + *step * d;
+                }
+                belt.equations.residual(&there, &mut residual);
+                for (sum, r) in correction.iter_mut().zip(&residual) {
+                    *sum += *weight * r;
+                }
+            }
+            self.newton.solver.solve(&mut correction);
+            for (d, more) in by_field.iter_mut().zip(&correction) {
+                *d += more;
+            }
+            let (more, whole) = (size(&correction), size(&by_field));
+            let stalled = more > 0.5 * before;
+            before = more;
+            if more <= CONVERGED * whole || (stalled && more <= ROUND_OFF * whole) {
+                return Ok(by_field);
+            }
+            if !more.is_finite() {
+                break;
+            }
+        }
+        Err(RunningError::Derivatives {
+            field: field.key.clone(),
+            left: before,
+        })
     }
 
     /// The same belt with another value of one field: same parts of the belt, same phase.
