@@ -34,8 +34,10 @@ const STEP: f64 = 1.0e-7;
 const STEP_FROM_ZERO: f64 = 1.0e-6;
 /// Correction of `dz/dp`, relative to it, that counts as converged.
 const CONVERGED: f64 = 1.0e-8;
-/// The same where round-off keeps corrections from shrinking.
+/// The same where round-off keeps corrections from shrinking, and what counts as none of a field that hardly matters: relative to the
+/// unknowns, for a field that is doubled.
 const ROUND_OFF: f64 = 1.0e-5;
+const NOTHING: f64 = 1.0e-8;
 /// Most corrections.
 const MOST_CORRECTIONS: usize = 100;
 
@@ -124,7 +126,8 @@ impl<E: BeltElementType> RunningBelt<E> {
             let (more, whole) = (size(&correction), size(&by_field));
             let stalled = more > 0.5 * before;
             before = more;
-            if more <= CONVERGED * whole || (stalled && more <= ROUND_OFF * whole) {
+            let small = more <= ROUND_OFF * whole || more * value.abs() <= NOTHING * size(z);
+            if more <= CONVERGED * whole || (stalled && small) {
                 return Ok(by_field);
             }
             if !more.is_finite() {
