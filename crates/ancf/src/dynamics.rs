@@ -97,9 +97,34 @@ pub trait Scheme {
         to: &mut Motion,
     ) -> Result<(), NotConverged>;
 
-    /// The state within the last step at which it solves the equations of motion, and the weights of start,
-    /// this state and end by which it integrates over the step; `None`: the trapezoidal rule of both ends.
-    fn middle(&self) -> Option<(&Motion, [f64; 3])> {
-        None
+    /// How the last step integrated accelerations.
+    fn rule(&self) -> StepRule<'_> {
+        StepRule::TRAPEZOIDAL
     }
+}
+
+/// How a scheme integrates the true accelerations x over a step of length h, its algorithmic ones being a:
+///
+/// ```text
+/// v1 - v0 = h (w0 x0 + w1 x_middle + w2 x1) + lag h [(x1 - a1) - (x0 - a0)]
+/// ```
+///
+/// exactly, so that sums of works and impulses by the same rule have no error of their own.
+#[derive(Clone, Copy, Debug)]
+pub struct StepRule<'a> {
+    /// The weights of start, middle and end.
+    pub weights: [f64; 3],
+    /// The state between the ends at which the equations of motion were solved, if any was.
+    pub middle: Option<&'a Motion>,
+    /// Part of a step by which the algorithmic acceleration lags.
+    pub lag: f64,
+}
+
+impl StepRule<'_> {
+    /// The mean of both ends.
+    pub const TRAPEZOIDAL: Self = Self {
+        weights: [0.5, 0.0, 0.5],
+        middle: None,
+        lag: 0.0,
+    };
 }

@@ -1,6 +1,7 @@
 //! The time run: settle on the pulleys, integrate, observe.
 
 mod control;
+mod pacing;
 mod place;
 mod recorder;
 mod settling;
@@ -110,7 +111,7 @@ pub struct Audit {
     pub energy_input: f64,
     /// Energy turned over: the work put in or taken out, summed without sign [J].
     pub turnover: f64,
-    /// Largest energy residual at any step, relative to the turnover.
+    /// Largest energy residual at any step, relative to the turnover and the kinetic and strain energy at the start.
     pub energy_residual: f64,
     /// Largest residual of the torque balance of a free pulley, relative to the angular momentum
     /// that its torques moved.

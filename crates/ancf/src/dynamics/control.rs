@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use thiserror::Error;
 
 use super::stage::{NotConverged, Stage};
-use super::{GeneralizedAlpha, Motion, RungeKutta4, Scheme, Statistics, TrBdf2};
+use super::{GeneralizedAlpha, Motion, RungeKutta4, Scheme, Statistics, StepRule, TrBdf2};
 use crate::norm::VectorNorm;
 use crate::system::{Mechanics, State};
 use crate::unsound::{Unsound, positive, within};
@@ -162,8 +162,8 @@ pub struct Window<'a> {
     pub from: &'a Motion,
     /// The state after it.
     pub to: &'a Motion,
-    /// What the scheme has solved between them: [`Scheme::middle`].
-    pub middle: Option<(&'a Motion, [f64; 3])>,
+    /// How the scheme has integrated from one to the other.
+    pub rule: StepRule<'a>,
 }
 
 impl Window<'_> {
@@ -446,8 +446,8 @@ impl Schemes {
             Some(fallback) if self.remaining > 0 => fallback,
             _ => self.main.as_ref(),
         };
-        let middle = scheme.middle();
-        Window { from, to, middle }
+        let rule = scheme.rule();
+        Window { from, to, rule }
     }
 
     /// Hands over to the fall-back; false if there is none or it is at work already.

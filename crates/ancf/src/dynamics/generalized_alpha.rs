@@ -9,10 +9,14 @@
 //! am = (2 rho - 1) / (rho + 1)   af = rho / (rho + 1)   g = 1/2 + af - am   b = (1/2 + g)² / 4
 //! ```
 //!
-//! Second order; `rho` is the damping left for infinitely fast modes.
+//! Second order; `rho` is the damping left for infinitely fast modes. Together the first two lines make
+//!
+//! ```text
+//! v1 - v0 = h/2 (x0 + x1) + h (1/2 - af) [(x1 - a1) - (x0 - a0)]
+//! ```
 
 use super::stage::{NotConverged, Stage, StageBase};
-use super::{Motion, Scheme};
+use super::{Motion, Scheme, StepRule};
 use crate::system::Mechanics;
 
 /// The scheme with its parameters.
@@ -79,5 +83,12 @@ impl Scheme for GeneralizedAlpha {
             to.algorithmic[i] = base(i) + new * to.a[i];
         }
         Ok(())
+    }
+
+    fn rule(&self) -> StepRule<'_> {
+        StepRule {
+            lag: 0.5 - self.alpha_f,
+            ..StepRule::TRAPEZOIDAL
+        }
     }
 }

@@ -13,7 +13,7 @@
 //! ```
 
 use super::stage::{NotConverged, Stage, StageBase};
-use super::{Motion, Scheme};
+use super::{Motion, Scheme, StepRule};
 use crate::system::Mechanics;
 
 /// The scheme and its middle stage.
@@ -68,8 +68,12 @@ impl Scheme for TrBdf2 {
         Ok(())
     }
 
-    fn middle(&self) -> Option<(&Motion, [f64; 3])> {
+    fn rule(&self) -> StepRule<'_> {
         let quarter = 0.25 * std::f64::consts::SQRT_2;
-        Some((&self.middle, [quarter, quarter, 1.0 - 2.0 * quarter]))
+        StepRule {
+            weights: [quarter, quarter, 1.0 - 2.0 * quarter],
+            middle: Some(&self.middle),
+            lag: 0.0,
+        }
     }
 }

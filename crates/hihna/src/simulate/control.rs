@@ -173,18 +173,22 @@ pub(super) fn control(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> Co
     }
 }
 
-/// Angular frequency [rad/s] of the slowest swing of a free pulley on the two spans beside it, zero if
+/// Angular frequency [rad/s] of the slowest swing of a free pulley, and of the belt that goes with it, on the two spans beside it, zero if
 /// no pulley is free: the vibration that a changing speed excites first.
 pub(super) fn slowest_swing(drive: &Drive, mounting: &Mounting) -> f64 {
     let belt = &drive.belt;
     let stiffness = belt.axial_factor * belt.youngs_modulus * drive.area();
     // Spans are no longer than the belt: the estimate is on the slow side.
     let per_length = drive.pulley.len() as f64 / mounting.length;
+    let mass = belt.density * drive.area() / per_length;
     drive
         .pulley
         .iter()
         .filter(|pulley| !pulley.is_driver())
-        .map(|p| p.radius * (2.0 * stiffness * per_length / p.inertia).sqrt())
+        .map(|p| {
+            let moved = p.inertia / (p.radius * p.radius) + mass;
+            (2.0 * stiffness * per_length / moved).sqrt()
+        })
         .reduce(f64::min)
         .unwrap_or(0.0)
 }

@@ -8,9 +8,10 @@ use ancf::statics::Settled;
 use ancf::system::{Mechanics, System};
 
 use super::control::nominal_speed;
+use super::pacing::Pacing;
 use super::{Audit, StartState};
 use crate::assemble::{Assembly, Mounting};
-use crate::drive::{Drive, Start};
+use crate::drive::Drive;
 use crate::history::History;
 use crate::layout::Layout;
 use crate::observe::{
@@ -45,8 +46,8 @@ pub(super) struct Recorder {
     /// Powers at the last accepted state and work since the start.
     powers: Powers,
     work: Powers,
-    residual: f64,
     largest_residual: f64,
+    pacing: Pacing,
     /// Time of the last accepted state [s].
     last_time: f64,
     /// Kinetic energy at nominal speed [J].
@@ -63,6 +64,8 @@ struct Momentum {
     torque: f64,
     impulse: f64,
     moved: f64,
+    /// Change of speed that the scheme has made beyond the impulse [rad/s].
+    lagging: f64,
     first_speed: f64,
     speed: f64,
 }
@@ -108,8 +111,8 @@ impl Recorder {
             initial: Stored::default(),
             powers: Powers::default(),
             work: Powers::default(),
-            residual: 0.0,
             largest_residual: 0.0,
+            pacing: Pacing::new(0.1 * drive.run.accuracy),
             last_time: 0.0,
             kinetic: 0.0,
             tolerance: 0.1 * drive.run.accuracy,
@@ -166,19 +169,21 @@ impl Recorder {
         // Integrated as the scheme does. Simpson's rule on interpolated states left forty times the residual on
         // the base case, probably because accelerations carry the noise of fast modes into velocities
         // interpolated with them.
-        let (middle, [start, between, end]) = match window.middle {
-            Some((state, weights)) => (Some(state), weights),
-            None => (None, [0.5, 0.0, 0.5]),
-        };
+        let [start, between, end] = window.rule.weights;
         let first = self.powers;
         let work_before = self.work;
         self.gather(step * start);
-        if let Some(state) = middle {
-            self.take(system, state);
+        if let Some(middle) = window.rule.middle {
+            self.take(system, middle);
             self.gather(step * between);
         }
         self.take(system, window.to);
         self.gather(step * end);
+        let rotors = system.structure().chain();
+        for (p, momentum) in self.momenta.iter_mut().enumerate() {
+            let ahead = |state: &Motion| state.a[rotors + p] - state.algorithmic[rotors + p];
+            momentum.lagging += window.rule.lag * step * (ahead(window.to) - ahead(window.from));
+        }
         let (work_after, last) = (self.work, self.powers);
         // Up to the part `s` of the step: the integral of the line through the powers at both ends, and of the
         // whole step's the part beyond that.
@@ -193,8 +198,9 @@ impl Recorder {
 
         let stored = self.observer.stored(system, window.to);
         let residual = self.residual(&stored, &self.work);
-        let pace = self.pace(residual, slowness);
-        self.residual = residual;
+        // What the drive holds at its fastest counts as turned over, as every work has a start.
+        let held = self.turned() + self.kinetic * slowness * slowness;
+        let pace = self.pacing.pace(t1, residual, held);
         self.largest_residual = self.largest_residual.max(residual.abs());
 
         let slack = 1.0e-9 * step;
@@ -279,21 +285,6 @@ impl Recorder {
         self.last_time
     }
 
-    /// Shorter steps while more than half of the tolerated energy is missing and the balance goes on
-    /// worsening. What the drive holds at the part `slowness` of its nominal speed counts as turned over, as every work
-    /// has a start.
-    fn pace(&self, residual: f64, slowness: f64) -> Pace {
-        let held = self.kinetic * slowness * slowness;
-        let allowed = 0.5 * self.tolerance * (self.work.turnover + held);
-        if residual.abs() > allowed && residual.abs() > self.residual.abs() {
-            Pace::Finer
-        } else if residual.abs() > 0.8 * allowed {
-            Pace::Hold
-        } else {
-            Pace::Free
-        }
-    }
-
     fn row<E: Element, L: PulleyLaw<E>>(
         &mut self,
         system: &System<E, L>,
@@ -323,24 +314,20 @@ impl Recorder {
             + work.damping
     }
 
+    /// What was turned over and what was held at the start, of which a balance cannot close all the parts [J].
+    fn turned(&self) -> f64 {
+        self.work.turnover + self.initial.kinetic + self.initial.strain
+    }
+
     pub fn audit(&self, drive: &Drive) -> Audit {
-        // A drive at rest turns nothing over: steps follow no motion below the accuracy of its nominal speed, whose
-        // kinetic energy is then what a balance can be asked for, or a part of what the belt has stored.
-        // One that begins in motion holds what a run-up would have turned over.
-        let begun = match drive.run.start {
-            Start::Steady => self.initial.kinetic,
-            Start::Rest => 0.0,
-        };
-        let scale = (self.work.turnover + begun)
-            .max(drive.run.accuracy * self.kinetic)
-            .max(1.0e-6 * self.initial.total());
         let torque_residual = self
             .momenta
             .iter()
             .zip(&drive.pulley)
             .filter(|(_, pulley)| !pulley.is_driver())
             .map(|(momentum, pulley)| {
-                let gained = pulley.inertia * (momentum.speed - momentum.first_speed);
+                let gained =
+                    pulley.inertia * (momentum.speed - momentum.first_speed - momentum.lagging);
                 let least = LEAST_TORQUE * self.rest_tension * pulley.radius * self.state.time;
                 (gained - momentum.impulse).abs() / momentum.moved.max(least)
             })
@@ -348,7 +335,7 @@ impl Recorder {
         Audit {
             energy_input: self.work.input,
             turnover: self.work.turnover,
-            energy_residual: self.largest_residual / scale,
+            energy_residual: self.largest_residual / self.turned(),
             torque_residual,
             tolerance: self.tolerance,
         }

@@ -1,0 +1,93 @@
+//! Steps that keep the energy balance.
+//!
+//! Prediction chooses steps by what velocities do, and that keeps the balance of most runs. Where it does not, shorter steps do, as long as
+//! it is the steps that err: the residual has then been growing, and would be beyond the limit L once as much time has passed again. With
+//! the residual R at the time t and its growth g over the last steps,
+//!
+//! ```text
+//! finer     |R| > L/2,    g t > L/10    and    |R| + g t > L
+//! hold      the same for steps twice as long, which double the residual of a scheme of second order twice: 4 g
+//! L = tolerance (turned over + held)
+//! ```
+//!
+//! A residual that stands where it is, or wavers with what Newton's method leaves over, asks for nothing: no step would mend it.
+
+use ancf::dynamics::Pace;
+
+/// Steps between two looks.
+const STEPS: usize = 16;
+
+/// Looks at the residual now and then.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pacing {
+    tolerance: f64,
+    /// When it was looked at last [s], and what it was [J].
+    time: f64,
+    residual: f64,
+    steps: usize,
+    hold: bool,
+}
+
+impl Pacing {
+    /// Of a run whose residual may be `tolerance` of what is turned over and held.
+    pub fn new(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            time: 0.0,
+            residual: 0.0,
+            steps: 0,
+            hold: false,
+        }
+    }
+
+    /// The pace after a step to `time` [s] with the energies `residual` and `held` [J], the latter with all that was turned over.
+    pub fn pace(&mut self, time: f64, residual: f64, held: f64) -> Pace {
+        self.steps += 1;
+        let mut finer = false;
+        if self.steps >= STEPS {
+            let limit = self.tolerance * held;
+            let size = residual.abs();
+            let growth = (size - self.residual.abs()).max(0.0) / (time - self.time);
+            let breaks = |to_come: f64| {
+                size > 0.5 * limit && to_come > 0.1 * limit && size + to_come > limit
+            };
+            finer = breaks(growth * time);
+            self.hold = breaks(4.0 * growth * time);
+            self.time = time;
+            self.residual = residual;
+            self.steps = 0;
+        }
+        match (finer, self.hold) {
+            (true, _) => Pace::Finer,
+            (false, true) => Pace::Hold,
+            (false, false) => Pace::Free,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn last(residual: impl Fn(f64) -> f64) -> Pace {
+        let mut pacing = Pacing::new(1.0e-4);
+        let mut pace = Pace::Free;
+        for step in 1..=STEPS * 10 {
+            let time = step as f64;
+            pace = pacing.pace(time, residual(time), 1.0);
+        }
+        pace
+    }
+
+    /// A residual that will leave its limit asks for shorter steps, one that would leave it with longer steps for no longer ones; one that
+    /// stands beyond the limit, wavers, or is small for nothing.
+    #[test]
+    fn what_grows_beyond_the_limit_is_held_back() {
+        let end = (STEPS * 10) as f64;
+        assert_eq!(last(|t| 0.9e-4 * t / end), Pace::Finer);
+        assert_eq!(last(|t| 0.55e-4 + 0.1e-4 * t / end), Pace::Hold);
+        assert_eq!(last(|_| -3.0e-4), Pace::Free);
+        assert_eq!(last(|t| 0.8e-4 + 1.0e-8 * (t * 12.9898).sin()), Pace::Free);
+        assert_eq!(last(|t| 1.0e-5 * t / end), Pace::Free);
+    }
+}
