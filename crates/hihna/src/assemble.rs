@@ -19,7 +19,7 @@ use ancf::system::{self, Mechanics, RigidCoordinate, System};
 use thiserror::Error;
 
 use crate::contact::{BeltContact, ContactPulley, Penalty};
-use crate::drive::{Belt, BeltElement, Contact, Drive, Harmonic, Integration, Pulley};
+use crate::drive::{Belt, BeltElement, Contact, Drive, Harmonic, Integration, Pulley, SlipAt};
 use crate::friction::{Frictionless, Law};
 use crate::layout::{self, Layout, LayoutError};
 use crate::profile::Profile;
@@ -385,11 +385,15 @@ fn system<E: BeltElementType>(
     system
 }
 
-fn penalty(contact: &Contact) -> Penalty {
+pub(crate) fn penalty(contact: &Contact) -> Penalty {
     Penalty {
         stiffness: contact.stiffness,
         damping: contact.damping,
         clamp: contact.clamp_normal_force,
+        slip_lever: match contact.slip_at {
+            SlipAt::Surface => 1.0,
+            SlipAt::Depth => 0.0,
+        },
     }
 }
 

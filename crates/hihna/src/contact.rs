@@ -6,19 +6,21 @@
 //!
 //! ```text
 //! d   = R - rho                 d' = -n.r'              contact where d > 0       (3.21)
-//! f_n = k_p d + c_p d'          v_t = t.r' - omega R    f_t = -friction(v_t, |f_n|)
+//! f_n = k_p d + c_p d'          v_t = t.r' - omega L    f_t = -friction(v_t, |f_n|)
 //! f   = f_n n + f_t t           on the belt, per undeformed length                (3.20, 3.23)
 //! T   = -(R - d) f_t            torque on the pulley, per undeformed length       (3.26)
+//! L   = R, as published (3.25), or R - d, where friction acts
 //! ```
 //!
 //! Where the centre moves, O is where it is now and r' the velocity against it; whoever moves it does the
 //! work `f.O'` per length and time.
 //!
 //! Energy per length and time: the penalty stores `k_p d²/2`; friction takes
-//! `-f_t (t.r' - omega (R - d))`, with the lever of the force; the damper takes `(f_n - k_p d) d'`.
+//! `-f_t (t.r' - omega (R - d))`, with the lever of the force, which is negative where slip against R and against R - d have different signs;
+//! the damper takes `(f_n - k_p d) d'`.
 //!
 //! Derivatives: `dn/dr = t t^T / rho`, `dt/dr = -n t^T / rho`, so `dd/dr = -n`,
-//! `dd'/dr = -(t.r') t / rho`, `dd'/dr' = -n`, `dv_t/dr = -(n.r') t / rho`, `dv_t/dr' = t`.
+//! `dd'/dr = -(t.r') t / rho`, `dd'/dr' = -n`, `dv_t/dr = -(n.r') t / rho`, `dv_t/dr' = t`; with L = R - d also `dv_t/dr = -omega n`.
 //!
 //! Laws with memory see the displacement `z = R sin(angle from the bristle's place to n)`, so
 //! `dz/dr = R cos(..) t / rho` and `dz/d theta = -R cos(..)`.
@@ -75,7 +77,7 @@ impl ContactPulley {
     }
 }
 
-/// The penalty law in the normal direction, per length of belt; per area on a surface.
+/// The penalty law in the normal direction, per length of belt, per area on a surface; and where slip is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penalty {
     /// k_p [N/m²], on a surface [N/m³].
@@ -84,6 +86,9 @@ pub struct Penalty {
     pub damping: f64,
     /// Whether the normal force is kept from pulling.
     pub clamp: bool,
+    /// Part of the penetration by which the lever of the pulley's speed in the slip exceeds that of friction, R - d: 1 for slip
+    /// against the surface as published, 0 at the depth where friction acts. Walls of grooves have the latter.
+    pub slip_lever: f64,
 }
 
 /// What the belt does to one pulley, summed over the contact.

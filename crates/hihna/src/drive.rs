@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::units;
 
 pub use belt::{Belt, BeltElement, Joint, PlateBending};
-pub use contact::{Contact, Friction, FrictionDirections, Integration, Surface};
+pub use contact::{Contact, Friction, FrictionDirections, Integration, SlipAt, Surface};
 pub use hub::{Crown, Displacement};
 pub use pulley::{Harmonic, Pulley, Wrap};
 pub use run::{AutoStep, Integrator, Run, Start, Step, Until};

@@ -106,6 +106,8 @@ fn contact<E: LineElement>(
             stiffness: 1.0e9,
             damping: 2.0e5,
             clamp,
+            // Both places of slip, one with each.
+            slip_lever: if clamp { 0.0 } else { 1.0 },
         },
         directions,
         Rule::gauss(NonZeroUsize::new(5).expect("five")),

@@ -82,6 +82,8 @@ fn contact(friction: &Law, clamp: bool, height: f64) -> BeltContact {
             stiffness: 1.0e7,
             damping: 1.0e5,
             clamp,
+            // Both places of slip, one with each.
+            slip_lever: if clamp { 0.0 } else { 1.0 },
         },
         Rule::gauss(NonZeroUsize::new(7).expect("seven")),
     );

@@ -48,6 +48,9 @@ pub struct PointContact<S> {
     /// df_t/dz times dz per angle of the point about the pulley [N/m].
     friction_by_turn: S,
     inverse_distance: S,
+    /// Lever of the pulley's speed in the slip [m], and how fast the slip grows with the penetration [1/s].
+    slip_lever: S,
+    slip_by_penetration: f64,
 }
 
 impl<S: Scalar> PointContact<S> {
@@ -68,7 +71,8 @@ impl<S: Scalar> PointContact<S> {
         let penetration = -distance + pulley.radius;
         let rate = -(n[0] * v[0] + n[1] * v[1]);
         let tangential_velocity = n[0] * v[1] - n[1] * v[0];
-        let slip = tangential_velocity - speed * pulley.radius;
+        let slip_lever = penetration * (penalty.slip_lever - 1.0) + pulley.radius;
+        let slip = tangential_velocity - slip_lever * speed;
         let zero = S::zero();
         // z = R sin(angle from the anchor to n), dz/d angle = R cos
         let (displacement, per_angle) = match anchor {
@@ -110,6 +114,8 @@ impl<S: Scalar> PointContact<S> {
             friction_by_normal: -(touching * developed.by_normal) * sign,
             friction_by_turn: -(touching * developed.by_displacement) * per_angle,
             inverse_distance,
+            slip_lever,
+            slip_by_penetration: speed * (1.0 - penalty.slip_lever),
         }
     }
 
@@ -159,7 +165,8 @@ impl<S: Scalar> PointContact<S> {
         let turn = per * gq;
         let fn_n = self.by_penetration * d_n + self.by_rate * rate_n;
         let fn_t = self.by_rate * rate_t;
-        let ft_n = self.friction_by_normal * fn_n;
+        let slip_n = d_n * self.slip_by_penetration;
+        let ft_n = self.friction_by_normal * fn_n + self.friction_by_slip * slip_n;
         let ft_t = self.friction_by_normal * fn_t
             + self.friction_by_slip * slip_t
             + self.friction_by_turn * turn;
@@ -175,7 +182,8 @@ impl<S: Scalar> PointContact<S> {
         // torque = -(R - d) ft
         let torque_n = ft * d_n - lever * ft_n;
         let torque_t = -(lever * ft_t);
-        let ft_by_pulley = self.friction_by_slip * (-radius * gv) - self.friction_by_turn * gq;
+        let ft_by_pulley =
+            -(self.friction_by_slip * self.slip_lever * gv) - self.friction_by_turn * gq;
         PointTangent {
             force: [
                 -(n[0] * by_n[0] + t[0] * by_t[0]),

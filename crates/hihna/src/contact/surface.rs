@@ -6,10 +6,11 @@
 //! ```text
 //! s = (r - O).p     rho n = (r - O) - s p,  |n| = 1     t = p x n                 (4.44)
 //! d = R(s) - rho    d' = R' v_p - v_n                   contact where d > 0       (4.45)
-//! f_n = k_p d + c_p d'       v_t = t.r' - omega R       v_a = a.r'
+//! f_n = k_p d + c_p d'       v_t = t.r' - omega L       v_a = a.r'
 //! m = n - R' p               a = p + R' n               (R' = dR/ds)
 //! f   = f_n m + f_t t + f_a a     on the belt, per undeformed area                (4.43)
 //! T   = -rho f_t                  torque on the pulley about p, per undeformed area
+//! L   = R, as published, or rho, where friction acts
 //! ```
 //!
 //! Friction is `f_t = -friction(v_t, |f_n|)`, `f_a = 0` around the pulley only, as published, or against the
@@ -85,7 +86,7 @@ pub struct SurfacePulley {
 impl SurfacePulley {
     /// The surface that the points on one side of the belt's section meet.
     #[inline(always)]
-    fn meridian(&self, side: Side) -> Meridian {
+    fn meridian(&self, side: Side, slip_lever: f64) -> Meridian {
         match (side, &self.groove) {
             (Side::Flank(flank), Some(groove)) => groove.wall(self.radius, flank),
             _ => Meridian {
@@ -93,7 +94,7 @@ impl SurfacePulley {
                 slope: self.slope,
                 curvature: self.curvature,
                 unit: 1.0,
-                lever: 1.0,
+                lever: slip_lever,
             },
         }
     }
@@ -330,7 +331,7 @@ impl SurfaceContact {
             v: std::array::from_fn(|k| v[k] - drift[k]),
             speed: state.v[self.chain + p],
         };
-        let surface = (pulley, pulley.meridian(batch.side));
+        let surface = (pulley, pulley.meridian(batch.side, self.penalty.slip_lever));
         let at = SurfacePoint::new(&self.penalty, surface, self.directions, &meeting);
         (at.penetration > 0.0).then(|| SurfaceTouch {
             pulley: p,

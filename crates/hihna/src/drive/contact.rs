@@ -44,6 +44,9 @@ pub struct Contact {
     /// The directions in which friction acts on the surface of a belt in space.
     #[serde(default, skip_serializing_if = "is_default")]
     pub friction_directions: FrictionDirections,
+    /// Where on the pulley slip is measured.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub slip_at: SlipAt,
     /// Whether the normal force is kept from pulling (c_p d' < -k_p d near the exit).
     #[serde(default)]
     pub clamp_normal_force: bool,
@@ -63,6 +66,18 @@ pub enum Integration {
     Gauss,
     /// Equally spaced points with the element's ends among them, trapezoidal weights.
     Trapezoidal,
+}
+
+/// Where on a pulley slip is measured. On the walls of grooves it is at the depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SlipAt {
+    /// Against the speed omega R of the surface, as published, whatever the penetration d. Friction acts at R - d, so that between
+    /// pulleys into which the belt sinks differently deep it may give power.
+    #[default]
+    Surface,
+    /// Against the speed omega (R - d) where friction acts: friction takes power only.
+    Depth,
 }
 
 /// Directions of friction on the surface of a pulley.

@@ -37,10 +37,11 @@ impl FieldPath {
         })
     }
 
-    /// The table of the drive that it is in: `belt`, or one of the pulleys.
-    pub fn table(&self) -> &[Segment] {
+    /// What a value out of range may break rules of by the way: its table, of a pulley only the field.
+    pub fn scope(&self) -> &[Segment] {
         let of_a_list = matches!(self.0.get(1), Some(Segment::Item { .. }));
-        &self.0[..self.0.len().min(1 + usize::from(of_a_list))]
+        let depth = if of_a_list { 3 } else { 1 };
+        &self.0[..self.0.len().min(depth)]
     }
 
     fn with(&self, segment: Segment) -> Self {

@@ -28,11 +28,11 @@ const SWING_STEP: f64 = 0.05;
 /// longer far below them.
 const SLOWEST: f64 = 1.0e-3;
 
-/// Greatest prescribed speed of a surface or a hub [m/s]; where nothing moves, a hundredth of the belt's longitudinal
-/// wave speed.
+/// Greatest prescribed speed of a surface or a hub in the run [m/s]; where nothing moves, a hundredth of the belt's
+/// longitudinal wave speed.
 #[must_use]
 pub fn nominal_speed(drive: &Drive) -> f64 {
-    let prescribed = fastest_until(drive, f64::INFINITY);
+    let prescribed = fastest_until(drive, drive.run.end_time);
     if prescribed > 0.0 {
         prescribed.max(SLOWEST * wave_bound(drive))
     } else {
@@ -62,9 +62,6 @@ fn fastest_until(drive: &Drive, time: f64) -> f64 {
 
 /// Greatest magnitude up to `time`: pieces between kinks are monotonic.
 fn value_bound(profile: &Profile, time: f64) -> f64 {
-    if time.is_infinite() {
-        return profile.bound();
-    }
     let kinks = profile.kinks().into_iter().filter(|kink| *kink < time);
     kinks
         .chain([0.0, time])

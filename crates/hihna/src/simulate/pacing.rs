@@ -2,7 +2,7 @@
 //!
 //! Prediction chooses steps by what velocities do, and that keeps the balance of most runs. Where it does not, shorter steps do, as long as
 //! it is the steps that err: the residual has then been growing, and would be beyond the limit L once as much time has passed again. With
-//! the residual R at the time t and its growth g over the last steps,
+//! the residual R at the time t and its growth g over the last twentieth of it,
 //!
 //! ```text
 //! finer     |R| > L/2,    g t > L/10    and    |R| + g t > L
@@ -14,8 +14,9 @@
 
 use ancf::dynamics::Pace;
 
-/// Steps between two looks.
+/// Steps between two looks, at least, and the part of the time that has passed: elements pass in between.
 const STEPS: usize = 16;
+const PART: f64 = 0.05;
 
 /// Looks at the residual now and then.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +45,7 @@ impl Pacing {
     pub fn pace(&mut self, time: f64, residual: f64, held: f64) -> Pace {
         self.steps += 1;
         let mut finer = false;
-        if self.steps >= STEPS {
+        if self.steps >= STEPS && time - self.time >= PART * time {
             let limit = self.tolerance * held;
             let size = residual.abs();
             let growth = (size - self.residual.abs()).max(0.0) / (time - self.time);

@@ -2,8 +2,8 @@
 
 use hihna::drive::{
     AutoStep, Belt, BeltElement, Contact, Displacement, Drive, Friction, FrictionDirections,
-    Harmonic, Integration, Integrator, Joint, PlateBending, Pulley, Run, Start, Step, Surface,
-    Until, Wrap,
+    Harmonic, Integration, Integrator, Joint, PlateBending, Pulley, Run, SlipAt, Start, Step,
+    Surface, Until, Wrap,
 };
 use hihna::input::{self, Override};
 use hihna::layout::Layout;
@@ -137,6 +137,7 @@ fn contact() -> impl Strategy<Value = Contact> {
                     Integration::Gauss
                 },
                 friction_directions: FrictionDirections::Circumferential,
+                slip_at: if flag { SlipAt::Depth } else { SlipAt::Surface },
                 clamp_normal_force: flag,
             },
         )

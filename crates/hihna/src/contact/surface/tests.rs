@@ -68,6 +68,8 @@ fn answer<S: Scalar>(
         stiffness: 1.0e7,
         damping: 3.0e4,
         clamp,
+        // Both places of slip, one with each.
+        slip_lever: if clamp { 0.0 } else { 1.0 },
     };
     let meeting = Meeting {
         arm: [x[0], x[1], x[2]],
@@ -76,7 +78,7 @@ fn answer<S: Scalar>(
     };
     let at = SurfacePoint::new(
         &penalty,
-        (pulley, pulley.meridian(side)),
+        (pulley, pulley.meridian(side, penalty.slip_lever)),
         directions,
         &meeting,
     );
@@ -95,6 +97,8 @@ fn analytic(
         stiffness: 1.0e7,
         damping: 3.0e4,
         clamp,
+        // Both places of slip, one with each.
+        slip_lever: if clamp { 0.0 } else { 1.0 },
     };
     let meeting = Meeting {
         arm: [x[0], x[1], x[2]],
@@ -103,7 +107,7 @@ fn analytic(
     };
     let at = SurfacePoint::new(
         &penalty,
-        (pulley, pulley.meridian(side)),
+        (pulley, pulley.meridian(side, penalty.slip_lever)),
         directions,
         &meeting,
     );
@@ -215,10 +219,10 @@ proptest! {
     #[test]
     fn friction_stays_in_the_disc(x in points(), speed in -12.0..12.0_f64) {
         let pulley = pulley(LAWS[0].clone(), [0.0; 2], 0.0, 0.0);
-        let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false };
+        let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false, slip_lever: 1.0 };
         let meeting = Meeting { arm: [x[0], x[1], x[2]], v: [x[3], x[4], x[5]], speed };
         let at = {
-            let surface = (&pulley, pulley.meridian(Side::Face));
+            let surface = (&pulley, pulley.meridian(Side::Face, 1.0));
             SurfacePoint::new(&penalty, surface, FrictionDirections::Both, &meeting)
         };
         let [ft, fa] = at.friction;
@@ -239,10 +243,10 @@ proptest! {
     ) {
         let pulley = pulley(LAWS[0].clone(), [0.0; 2], 0.05, 0.3);
         let flank = if upper { Flank::Upper } else { Flank::Lower };
-        let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false };
+        let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false, slip_lever: 1.0 };
         let s = flank.sign() * 0.01 + along;
         let meeting = Meeting { arm: [0.1 + radial, 0.0, s], v, speed };
-        let surface = (&pulley, pulley.meridian(Side::Flank(flank)));
+        let surface = (&pulley, pulley.meridian(Side::Flank(flank), 1.0));
         let at = SurfacePoint::new(&penalty, surface, FrictionDirections::Both, &meeting);
         let (sine, cosine) = 0.3_f64.sin_cos();
         let depth = flank.sign() * along * cosine - radial * sine;
@@ -251,7 +255,7 @@ proptest! {
             friction: Law::Frictionless(crate::friction::Frictionless),
             ..pulley.clone()
         };
-        let surface = (&frictionless, frictionless.meridian(Side::Flank(flank)));
+        let surface = (&frictionless, frictionless.meridian(Side::Flank(flank), 1.0));
         let [fx, fy, fz] =
             SurfacePoint::new(&penalty, surface, FrictionDirections::Both, &meeting).force(&frictionless);
         let pressure = 1.0e7 * depth.max(0.0);

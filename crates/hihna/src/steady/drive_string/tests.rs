@@ -3,7 +3,7 @@
 use super::*;
 use crate::drive::{
     Belt, BeltElement, Contact, Friction, FrictionDirections, Integration, Joint, PlateBending,
-    Run, Surface, Wrap,
+    Run, SlipAt, Surface, Wrap,
 };
 use crate::steady::string::Running;
 
@@ -69,6 +69,7 @@ fn drive(tension: f64, youngs_modulus: f64, pulley: Vec<Pulley>) -> Drive {
             points_across: 3,
             integration: Integration::Gauss,
             friction_directions: FrictionDirections::Circumferential,
+            slip_at: SlipAt::Surface,
             clamp_normal_force: false,
         },
         pulley,

@@ -17,8 +17,8 @@ use super::equations::{Equations, Phase};
 use super::line::{ContactLine, MOST_DOF};
 use super::newton::Newton;
 use super::{RunningBelt, RunningError, mesh};
-use crate::assemble::{Assembly, AssemblyError, BeltElementType, Warning, coarse_mesh};
-use crate::contact::{ContactPulley, Penalty};
+use crate::assemble::{Assembly, AssemblyError, BeltElementType, Warning, coarse_mesh, penalty};
+use crate::contact::ContactPulley;
 use crate::drive::{Drive, Friction, Integration, Pulley};
 use crate::friction::Law;
 use crate::layout::Layout;
@@ -288,11 +288,7 @@ fn equations<E: BeltElementType>(
 ) -> Equations<E> {
     let mesh = assembly.system.mesh().clone();
     let points = NonZeroUsize::new(drive.contact.points).unwrap_or(NonZeroUsize::MIN);
-    let penalty = Penalty {
-        stiffness: drive.contact.stiffness,
-        damping: drive.contact.damping,
-        clamp: drive.contact.clamp_normal_force,
-    };
+    let penalty = penalty(&drive.contact);
     let pulleys: Vec<ContactPulley> = assembly.system.law.pulleys.clone();
     let mut contact = SteadyContact::new(pulleys, penalty, Rule::gauss(points), E::DOF);
     if laws.iter().any(Law::has_memory) {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Answer, Capacity, Found, Most, Outcome, POWER_TOLERANCE, Running};
-use crate::drive::{BeltElement, Drive, SteadyMesh};
+use crate::drive::{BeltElement, Drive, SlipAt, SteadyMesh};
 use crate::layout::Arc;
 use crate::summary::{Named, PulleyReport, SpanReport, Start};
 
@@ -249,6 +249,16 @@ impl RunningSummary {
             ));
         }
         self.audit = Some(audit);
+        let powers = &running.powers;
+        let lost = powers.friction + powers.contact;
+        // Less than the residual may be the mesh's.
+        let missed = running.power_residual.abs() * powers.input.abs();
+        if drive.contact.slip_at == SlipAt::Surface && lost < -missed {
+            self.warnings.push(format!(
+                "contact wins {:.2e} W: slip is measured at the surface of the pulleys, as published, but friction acts where the belt has sunk in; `contact.slip_at = \"depth\"` measures slip there, too",
+                -lost
+            ));
+        }
     }
 }
 
