@@ -7,7 +7,8 @@
 //! * a trial `x - s b` costs one force and one solve, whose result is the next correction;
 //! * natural monotonicity `|b_trial| < (1 - s/4) |b|` accepts it (Deuflhard), otherwise the tangent
 //!   is renewed at `x`, and if it is fresh already, `s` is halved;
-//! * a contraction above [`SLOW`] renews the tangent at the new point.
+//! * a contraction above [`SLOW`] renews the tangent at the new point;
+//! * where that has been cheaper lately, a stage begins with a new tangent (`renewal.rs`).
 //!
 //! * with the contraction `c` of the last trial, `c / (1 - c) |b|` bounds what is left after the last
 //!   correction: below the tolerance the stage is done.
@@ -17,6 +18,7 @@
 
 use thiserror::Error;
 
+use super::renewal::Renewal;
 use super::{Motion, Statistics};
 use crate::constraint::ConstraintSet;
 use crate::linear::{BorderedMatrix, CyclicSolver, DenseInverse, SectionPanels, Solver};
@@ -91,6 +93,7 @@ pub struct Stage {
     base_q: Vec<f64>,
     base_v: Vec<f64>,
     norm: VectorNorm,
+    renewal: Renewal,
     /// Counters since the start.
     pub statistics: Statistics,
 }
@@ -121,6 +124,7 @@ impl Stage {
             base_q: vec![0.0; size],
             base_v: vec![0.0; size],
             norm: VectorNorm::new(system),
+            renewal: Renewal::default(),
             statistics: Statistics::default(),
         }
     }
@@ -185,6 +189,25 @@ impl Stage {
         motion: &mut Motion,
         base: StageBase,
     ) -> Result<(), NotConverged> {
+        let before = self.statistics;
+        let renewal = self.renewal.is_due();
+        let result = self.iterate(system, motion, base, renewal);
+        self.renewal.count(
+            renewal,
+            self.statistics.force_evaluations - before.force_evaluations,
+            self.statistics.tangent_evaluations - before.tangent_evaluations,
+        );
+        result
+    }
+
+    /// Newton's iterations of a stage, the first with a new tangent if `renewal` says so.
+    fn iterate(
+        &mut self,
+        system: &mut dyn Mechanics,
+        motion: &mut Motion,
+        base: StageBase,
+        renewal: bool,
+    ) -> Result<(), NotConverged> {
         // What was written there is of no use any more; the base moves in without a copy.
         std::mem::swap(&mut self.base_q, &mut motion.q);
         std::mem::swap(&mut self.base_v, &mut motion.v);
@@ -192,7 +215,8 @@ impl Stage {
         let mut fresh = false;
         self.place(system, motion, base);
         self.evaluate(system, motion, Target::Current);
-        if (gv / self.factored_for - 1.0).abs() > STALE || self.factored_for == 0.0 {
+        let stale = (gv / self.factored_for - 1.0).abs() > STALE || self.factored_for == 0.0;
+        if stale || renewal {
             self.renew(system, motion, base)?;
             fresh = true;
         }
