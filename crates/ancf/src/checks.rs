@@ -330,6 +330,11 @@ pub fn damping_is_consistent<E: Element>(element: &E) {
         element.add_damping_force(&e, &rate, &mut twice);
         let doubled: Vec<f64> = force.iter().map(|f| 2.0 * f).collect();
         assert_close("added damping force", &twice, &doubled, 1e-13);
+        let mut both = vec![0.0; E::DOF];
+        element.damped_force(&e, &rate, &mut both);
+        let mut sum = self::force(element, &e);
+        element.add_damping_force(&e, &rate, &mut sum);
+        assert_close("elastic and damping force together", &both, &sum, 1e-13);
 
         for (by_position, by_rate) in [(1.0, 0.0), (0.0, 1.0), (0.7, 1.3)] {
             let mut expected = vec![0.0; n * n];

@@ -10,6 +10,7 @@
 
 mod control;
 mod generalized_alpha;
+mod renewal;
 mod runge_kutta;
 mod stage;
 mod tr_bdf2;

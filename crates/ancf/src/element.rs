@@ -71,6 +71,14 @@ pub trait Element: BodyKernels + Clone + PartialEq + std::fmt::Debug + Send + Sy
         let _ = (e, rate, force);
     }
 
+    /// Writes the elastic force and that of the internal damping together; elements that share work between
+    /// both may do so here.
+    #[inline(always)]
+    fn damped_force<S: Scalar>(&self, e: &[S], rate: &[S], force: &mut [S]) {
+        self.force(e, force);
+        self.add_damping_force(e, rate, force);
+    }
+
     /// Adds `position_factor * (-dF/de) + rate_factor * (-dF/d rate)` of the damping force, row-major.
     fn add_damping_tangent<S: Scalar>(
         &self,

@@ -157,6 +157,55 @@ impl<E: Element> Mesh<E> {
         }
     }
 
+    /// Adds the element vectors of a batch, in lanes, to `f`.
+    #[inline(always)]
+    fn scatter_batch<S: EightLanes, const N: usize>(
+        &self,
+        batch: Batch,
+        force: &[S; N],
+        f: &mut [f64],
+    ) {
+        if const { is_chain::<E>() && E::NODES == 2 && E::NODE_DOF <= LANES } {
+            self.scatter_chain(batch, force, f);
+            return;
+        }
+        let mut stored = [[0.0; LANES]; N];
+        for (lanes, value) in stored.iter_mut().zip(force) {
+            *lanes = value.store();
+        }
+        for lane in 0..batch.count {
+            self.scatter_entries(batch.first + lane, |i| stored[i][lane], f);
+        }
+    }
+
+    /// The same where a node takes up from the elements on both sides of it alone, whose parts are summed first.
+    #[inline(always)]
+    fn scatter_chain<S: EightLanes, const N: usize>(
+        &self,
+        batch: Batch,
+        force: &[S; N],
+        f: &mut [f64],
+    ) {
+        let n = E::NODE_DOF;
+        let mut nodes = [[S::zero(); LANES]; 2];
+        for (k, node) in nodes.iter_mut().enumerate() {
+            node[..n].copy_from_slice(&force[k * n..(k + 1) * n]);
+            *node = S::transpose(*node);
+        }
+        let mut add = |node: usize, sum: S| {
+            let sum = sum.store();
+            for (value, part) in f[node * n..][..n].iter_mut().zip(&sum[..n]) {
+                *value += part;
+            }
+        };
+        let mut before = S::zero();
+        for lane in 0..batch.count {
+            add(batch.first + lane, nodes[0][lane] + before);
+            before = nodes[1][lane];
+        }
+        add(self.node(batch.first + batch.count - 1, 1), before);
+    }
+
     /// Adds `factor` times the element matrix `local` (row-major, `DOF x DOF`) to `matrix`.
     #[inline(always)]
     fn scatter_matrix(
@@ -222,6 +271,9 @@ impl<E: Element> Mesh<E> {
     /// element repeat the last one.
     #[inline(always)]
     fn load<S: EightLanes, const N: usize>(&self, batch: Batch, x: &[f64]) -> [S; N] {
+        if const { is_chain::<E>() && E::DOF >= LANES } {
+            return self.load_chain(batch, x);
+        }
         let n = E::NODE_DOF;
         let mut lanes = [[0.0; LANES]; N];
         for lane in 0..LANES {
@@ -236,6 +288,26 @@ impl<E: Element> Mesh<E> {
         let mut loaded = [S::zero(); N];
         for (value, lanes) in loaded.iter_mut().zip(&lanes) {
             *value = S::load(lanes);
+        }
+        loaded
+    }
+
+    /// The same where the nodes of an element follow one another: its coordinates stand together, but for the
+    /// last element of a closed chain.
+    #[inline(always)]
+    fn load_chain<S: EightLanes, const N: usize>(&self, batch: Batch, x: &[f64]) -> [S; N] {
+        let mut own = [0.0; N];
+        let last = batch.first + batch.count - 1;
+        self.gather(last, x, &mut own[..E::DOF]);
+        let mut loaded = [S::zero(); N];
+        for chunk in 0..E::DOF.div_ceil(LANES) {
+            // The last eight coordinates overlap those before where there are not eight more.
+            let first = (chunk * LANES).min(E::DOF - LANES);
+            let mut rows = [eight::<S>(&own, first); LANES];
+            for lane in 0..batch.count - 1 {
+                rows[lane] = eight(x, (batch.first + lane) * E::NODE_DOF + first);
+            }
+            loaded[first..first + LANES].copy_from_slice(&S::transpose(rows));
         }
         loaded
     }
@@ -279,4 +351,12 @@ impl<E: Element> Mesh<E> {
 struct Batch {
     first: usize,
     count: usize,
+}
+
+/// Eight numbers of `x` from `first` on.
+#[inline(always)]
+fn eight<S: EightLanes>(x: &[f64], first: usize) -> S {
+    // As for any slice, there must be so many.
+    let (numbers, _) = x[first..].as_chunks();
+    S::load(&numbers[0])
 }

@@ -1,5 +1,7 @@
 //! The norm of corrections and errors: the longest vector of a node, whatever the axes.
 
+use pulp::Arch;
+
 use crate::system::Mechanics;
 
 /// Measures coordinate vectors of one system.
@@ -35,33 +37,95 @@ impl VectorNorm {
         norm
     }
 
-    /// Length of the longest weighted vector of `x` and its first coordinate; NaN counts as infinite.
+    /// Length of the longest weighted vector of `x`; infinite where a value is not finite.
     #[must_use]
-    pub fn largest(&self, x: &[f64]) -> (f64, usize) {
+    pub fn size(&self, x: &[f64]) -> f64 {
         let (vectors, single) = x.split_at(self.chain);
-        let (vector_scales, single_scales) = self.scales.split_at(self.chain);
+        let (scales, single_scales) = self.scales.split_at(self.chain);
+        let mut sizes = Sizes::default();
+        match self.dimension {
+            2 => sizes.take::<2>(vectors, scales),
+            3 => sizes.take::<3>(vectors, scales),
+            _ => sizes.take::<1>(vectors, scales),
+        }
+        sizes.take::<1>(single, single_scales);
+        sizes.largest().sqrt()
+    }
+
+    /// First coordinate of the longest weighted vector of `x`; the first value that is not a number counts as longest.
+    #[must_use]
+    pub fn place(&self, x: &[f64]) -> usize {
         let mut largest = (0.0, 0);
-        let mut look = |square: f64, place: usize| {
+        let mut first = 0;
+        while first < x.len() {
+            let end = if first < self.chain {
+                first + self.dimension
+            } else {
+                first + 1
+            };
+            let square: f64 = x[first..end].iter().map(|x| x * x).sum();
+            let square = square * self.scales[first] * self.scales[first];
             let square = if square.is_nan() {
                 f64::INFINITY
             } else {
                 square
             };
             if square > largest.0 {
-                largest = (square, place);
+                largest = (square, first);
             }
-        };
-        for (i, (vector, scales)) in vectors
-            .chunks_exact(self.dimension)
-            .zip(vector_scales.chunks_exact(self.dimension))
-            .enumerate()
-        {
-            let length: f64 = vector.iter().map(|x| x * x).sum();
-            look(length * scales[0] * scales[0], i * self.dimension);
+            first = end;
         }
-        for (i, (x, scale)) in single.iter().zip(single_scales).enumerate() {
-            look((x * scale).powi(2), self.chain + i);
+        largest.1
+    }
+}
+
+/// Vectors looked at side by side.
+const LANES: usize = 8;
+
+/// The largest square of a weighted vector so far, by lane.
+#[derive(Default)]
+struct Sizes {
+    largest: [f64; LANES],
+    /// Zero as long as all squares are finite, not a number from then on.
+    finite: [f64; LANES],
+}
+
+impl Sizes {
+    /// Takes in vectors of `N` components whose scales are alike.
+    fn take<const N: usize>(&mut self, vectors: &[f64], scales: &[f64]) {
+        let (vectors, _) = vectors.as_chunks::<N>();
+        let (scales, _) = scales.as_chunks::<N>();
+        let (groups, rest) = vectors.as_chunks::<LANES>();
+        let (group_scales, rest_scales) = scales.as_chunks::<LANES>();
+        Arch::new().dispatch(
+            #[inline(always)]
+            || {
+                for (group, scales) in groups.iter().zip(group_scales) {
+                    for lane in 0..LANES {
+                        self.look(lane, &group[lane], scales[lane][0]);
+                    }
+                }
+            },
+        );
+        for (vector, scales) in rest.iter().zip(rest_scales) {
+            self.look(0, vector, scales[0]);
         }
-        (largest.0.sqrt(), largest.1)
+    }
+
+    #[inline(always)]
+    fn look<const N: usize>(&mut self, lane: usize, vector: &[f64; N], scale: f64) {
+        let square = vector.iter().map(|x| x * x).sum::<f64>() * (scale * scale);
+        self.finite[lane] += 0.0 * square;
+        let largest = &mut self.largest[lane];
+        *largest = if square > *largest { square } else { *largest };
+    }
+
+    fn largest(&self) -> f64 {
+        if self.finite.iter().any(|x| x.is_nan()) {
+            return f64::INFINITY;
+        }
+        self.largest
+            .iter()
+            .fold(0.0, |largest: f64, x| largest.max(*x))
     }
 }

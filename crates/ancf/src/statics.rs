@@ -179,7 +179,7 @@ pub fn settle_watched(
             })?;
         correction.copy_from_slice(&force);
         solver.solve(&mut correction);
-        let size_now = norm.largest(&correction);
+        let size_now = (norm.size(&correction), norm.place(&correction));
         last = size_now;
         if size_now.0 < options.tolerance {
             for (x, b) in q.iter_mut().zip(&correction) {

@@ -35,7 +35,7 @@ use ancf::element::LineElement;
 use ancf::linear::BorderedMatrix;
 use ancf::mesh::Mesh;
 use ancf::quadrature::Rule;
-use ancf::scalar::dispatch;
+use ancf::scalar::{Lanes, dispatch};
 use ancf::system::{ForceLaw, State};
 
 pub(crate) use point::Meeting;
@@ -166,12 +166,12 @@ pub struct BeltContact {
     tables: Vec<Table>,
     /// Kind of each element.
     kind_of: Vec<usize>,
+    /// A third of the undeformed length of each element [m], eight at a time, the last one repeated.
+    thirds: Vec<Lanes<LANES>>,
     /// Where bristles stand, by element and batch; empty without a law that remembers.
     bristles: Vec<Bristles>,
     /// Memory for the next state of them.
     next_bristles: Vec<Bristles>,
-    /// Element matrix, allocated once.
-    local: Vec<f64>,
 }
 
 impl BeltContact {
@@ -231,9 +231,9 @@ impl BeltContact {
             lines: heights.len(),
             tables,
             kind_of,
+            thirds: thirds(mesh),
             bristles: Vec::new(),
             next_bristles: Vec::new(),
-            local: vec![0.0; E::DOF * E::DOF],
         };
         contact.forget();
         contact
@@ -265,13 +265,6 @@ impl BeltContact {
 
     fn table(&self, element: usize, line: usize) -> &Table {
         &self.tables[self.kind_of[element] * self.lines + line]
-    }
-
-    /// A disc that holds the element (see [`Table::hull`]).
-    #[inline(always)]
-    fn hull(&self, element: usize, vectors: &[[f64; 2]; MAX_VECTORS]) -> ([f64; 2], f64) {
-        self.table(element, 0)
-            .hull(&self.line, self.highest, vectors)
     }
 
     fn rotors(&self) -> usize {
@@ -369,6 +362,16 @@ fn places<E: LineElement>(mesh: &Mesh<E>, line: &Line) -> Vec<[usize; MAX_VECTOR
         .collect()
 }
 
+/// A third of the undeformed length of each element of `mesh` [m], eight at a time, the last one repeated.
+fn thirds<E: LineElement>(mesh: &Mesh<E>) -> Vec<Lanes<LANES>> {
+    (mesh.elements().chunks(LANES))
+        .map(|elements| {
+            let third = |lane: usize| elements[lane.min(elements.len() - 1)].length() / 3.0;
+            Lanes(std::array::from_fn(third))
+        })
+        .collect()
+}
+
 impl ForceLaw for BeltContact {
     fn add_force(&mut self, state: State<'_>, force: &mut [f64]) {
         dispatch(kernels::AddForce {
@@ -390,16 +393,13 @@ impl ForceLaw for BeltContact {
         velocity_factor: f64,
         matrix: &mut BorderedMatrix,
     ) {
-        let mut local = std::mem::take(&mut self.local);
         dispatch(kernels::AddTangent {
             contact: self,
             state,
             position_factor,
             velocity_factor,
-            local: &mut local,
             matrix,
         });
-        self.local = local;
         for (p, pulley) in self.pulleys.iter().enumerate() {
             let speed = state.v[self.rotors() + p];
             let slope = pulley.external.derivative(state.time, speed);

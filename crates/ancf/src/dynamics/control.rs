@@ -371,10 +371,11 @@ impl Jumps {
 /// acceleration.
 fn prediction_error(norm: &VectorNorm, from: &Motion, to: &Motion, difference: &mut [f64]) -> f64 {
     let h = to.time - from.time;
-    for (i, value) in difference.iter_mut().enumerate() {
-        *value = to.v[i] - from.v[i] - h * from.a[i];
+    let accelerated = from.v.iter().zip(&from.a).map(|(v, a)| v + h * a);
+    for ((value, predicted), found) in difference.iter_mut().zip(accelerated).zip(&to.v) {
+        *value = found - predicted;
     }
-    norm.largest(difference).0
+    norm.size(difference)
 }
 
 /// Halvings that the observer asked for.

@@ -60,16 +60,23 @@ impl Scheme for GeneralizedAlpha {
             beta,
         } = *self;
         let new = (1.0 - alpha_f) / (1.0 - alpha_m);
-        // algorithmic acceleration without its part from the unknown
-        let base =
-            |i: usize| (alpha_f * from.a[i] - alpha_m * from.algorithmic[i]) / (1.0 - alpha_m);
-        for i in 0..from.q.len() {
-            let (old, known) = (from.algorithmic[i], base(i));
-            to.v[i] = from.v[i] + step * ((1.0 - gamma) * old + gamma * known);
-            to.q[i] =
-                from.q[i] + step * from.v[i] + step * step * ((0.5 - beta) * old + beta * known);
-            to.a[i] = from.a[i];
+        let size = from.q.len();
+        let (q, v, a) = (&from.q[..size], &from.v[..size], &from.a[..size]);
+        let algorithmic = &from.algorithmic[..size];
+        let (to_q, to_v, to_a) = (
+            &mut to.q[..size],
+            &mut to.v[..size],
+            &mut to.algorithmic[..size],
+        );
+        for i in 0..size {
+            // Algorithmic acceleration without its part from the unknown.
+            let known = (alpha_f * a[i] - alpha_m * algorithmic[i]) / (1.0 - alpha_m);
+            let old = algorithmic[i];
+            to_v[i] = v[i] + step * ((1.0 - gamma) * old + gamma * known);
+            to_q[i] = q[i] + step * v[i] + step * step * ((0.5 - beta) * old + beta * known);
+            to_a[i] = known;
         }
+        to.a.copy_from_slice(a);
         to.time = from.time + step;
         stage.solve(
             system,
@@ -79,8 +86,8 @@ impl Scheme for GeneralizedAlpha {
                 velocity_factor: step * gamma * new,
             },
         )?;
-        for i in 0..from.q.len() {
-            to.algorithmic[i] = base(i) + new * to.a[i];
+        for (algorithmic, a) in to.algorithmic.iter_mut().zip(&to.a) {
+            *algorithmic += new * a;
         }
         Ok(())
     }

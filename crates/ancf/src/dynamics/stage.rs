@@ -7,7 +7,8 @@
 //! * a trial `x - s b` costs one force and one solve, whose result is the next correction;
 //! * natural monotonicity `|b_trial| < (1 - s/4) |b|` accepts it (Deuflhard), otherwise the tangent
 //!   is renewed at `x`, and if it is fresh already, `s` is halved;
-//! * a contraction above [`SLOW`] renews the tangent at the new point.
+//! * a contraction above [`SLOW`] renews the tangent at the new point;
+//! * where that has been cheaper lately, a stage begins with a new tangent (`renewal.rs`).
 //!
 //! * with the contraction `c` of the last trial, `c / (1 - c) |b|` bounds what is left after the last
 //!   correction: below the tolerance the stage is done.
@@ -17,6 +18,7 @@
 
 use thiserror::Error;
 
+use super::renewal::Renewal;
 use super::{Motion, Statistics};
 use crate::constraint::ConstraintSet;
 use crate::linear::{BorderedMatrix, CyclicSolver, DenseInverse, SectionPanels, Solver};
@@ -90,8 +92,8 @@ pub struct Stage {
     /// Base positions and velocities.
     base_q: Vec<f64>,
     base_v: Vec<f64>,
-    fixed: Vec<bool>,
     norm: VectorNorm,
+    renewal: Renewal,
     /// Counters since the start.
     pub statistics: Statistics,
 }
@@ -103,10 +105,6 @@ impl Stage {
     pub fn new(system: &dyn Mechanics, tolerance: f64) -> Self {
         let structure = system.structure();
         let size = structure.size();
-        let mut fixed = vec![false; size];
-        for (index, _) in system.prescribed() {
-            fixed[*index] = true;
-        }
         Self {
             tolerance,
             mass: SectionPanels::new(system.mass()),
@@ -125,8 +123,8 @@ impl Stage {
             trial: Motion::zero(size),
             base_q: vec![0.0; size],
             base_v: vec![0.0; size],
-            fixed,
             norm: VectorNorm::new(system),
+            renewal: Renewal::default(),
             statistics: Statistics::default(),
         }
     }
@@ -191,41 +189,64 @@ impl Stage {
         motion: &mut Motion,
         base: StageBase,
     ) -> Result<(), NotConverged> {
-        self.base_q.copy_from_slice(&motion.q);
-        self.base_v.copy_from_slice(&motion.v);
+        let before = self.statistics;
+        let renewal = self.renewal.is_due();
+        let result = self.iterate(system, motion, base, renewal);
+        self.renewal.count(
+            renewal,
+            self.statistics.force_evaluations - before.force_evaluations,
+            self.statistics.tangent_evaluations - before.tangent_evaluations,
+        );
+        result
+    }
+
+    /// Newton's iterations of a stage, the first with a new tangent if `renewal` says so.
+    fn iterate(
+        &mut self,
+        system: &mut dyn Mechanics,
+        motion: &mut Motion,
+        base: StageBase,
+        renewal: bool,
+    ) -> Result<(), NotConverged> {
+        // What was written there is of no use any more; the base moves in without a copy.
+        std::mem::swap(&mut self.base_q, &mut motion.q);
+        std::mem::swap(&mut self.base_v, &mut motion.v);
         let gv = base.velocity_factor;
         let mut fresh = false;
         self.place(system, motion, base);
         self.evaluate(system, motion, Target::Current);
-        if (gv / self.factored_for - 1.0).abs() > STALE || self.factored_for == 0.0 {
+        let stale = (gv / self.factored_for - 1.0).abs() > STALE || self.factored_for == 0.0;
+        if stale || renewal {
             self.renew(system, motion, base)?;
             fresh = true;
         }
         self.correct(Target::Current);
-        let (mut size, mut largest) = self.norm(&self.correction, gv);
+        let mut size = self.norm(&self.correction, gv);
         let mut damping: f64 = 1.0;
         for _ in 0..MAX_TRIALS {
             if size < 0.01 * self.tolerance {
                 self.apply(system, motion, base);
                 return Ok(());
             }
-            self.trial.time = motion.time;
-            for i in 0..motion.a.len() {
-                self.trial.a[i] = motion.a[i] - damping * self.correction[i];
-            }
             let mut trial = std::mem::replace(&mut self.trial, Motion::zero(0));
+            trial.time = motion.time;
+            let moved = motion.a.iter().zip(&self.correction);
+            for (a, (from, correction)) in trial.a.iter_mut().zip(moved) {
+                *a = from - damping * correction;
+            }
             self.place(system, &mut trial, base);
             self.evaluate(system, &trial, Target::Trial);
             self.correct(Target::Trial);
-            let (trial_size, trial_largest) = self.norm(&self.trial_correction, gv);
+            let trial_size = self.norm(&self.trial_correction, gv);
             let contraction = trial_size / size;
             if contraction < 1.0 - 0.25 * damping {
-                std::mem::swap(motion, &mut trial);
+                std::mem::swap(&mut motion.q, &mut trial.q);
+                std::mem::swap(&mut motion.v, &mut trial.v);
+                std::mem::swap(&mut motion.a, &mut trial.a);
                 self.trial = trial;
-                motion.algorithmic.copy_from_slice(&self.trial.algorithmic);
                 std::mem::swap(&mut self.residual, &mut self.trial_residual);
                 std::mem::swap(&mut self.correction, &mut self.trial_correction);
-                (size, largest) = (trial_size, trial_largest);
+                size = trial_size;
                 let left = contraction / (1.0 - contraction) * size;
                 if damping >= 1.0 && left < self.tolerance {
                     self.apply(system, motion, base);
@@ -236,7 +257,7 @@ impl Stage {
                     self.renew(system, motion, base)?;
                     fresh = true;
                     self.correct(Target::Current);
-                    (size, largest) = self.norm(&self.correction, gv);
+                    size = self.norm(&self.correction, gv);
                 }
                 damping = (2.0 * damping).min(1.0);
             } else {
@@ -250,7 +271,7 @@ impl Stage {
                     self.renew(system, motion, base)?;
                     fresh = true;
                     self.correct(Target::Current);
-                    (size, largest) = self.norm(&self.correction, gv);
+                    size = self.norm(&self.correction, gv);
                 }
             }
         }
@@ -259,7 +280,7 @@ impl Stage {
         Err(NotConverged {
             time: motion.time,
             residual: size,
-            coordinate: largest,
+            coordinate: self.norm.place(&self.correction),
         })
     }
 
@@ -274,9 +295,11 @@ impl Stage {
     /// Position and velocity from the accelerations.
     fn place(&self, system: &dyn Mechanics, motion: &mut Motion, base: StageBase) {
         let (gq, gv) = (base.position_factor, base.velocity_factor);
-        for i in 0..motion.a.len() {
-            motion.v[i] = self.base_v[i] + gv * motion.a[i];
-            motion.q[i] = self.base_q[i] + gq * motion.a[i];
+        for ((v, base), a) in motion.v.iter_mut().zip(&self.base_v).zip(&motion.a) {
+            *v = base + gv * a;
+        }
+        for ((q, base), a) in motion.q.iter_mut().zip(&self.base_q).zip(&motion.a) {
+            *q = base + gq * a;
         }
         system.prescribe(motion.time, &mut motion.q, &mut motion.v, &mut motion.a);
     }
@@ -293,13 +316,9 @@ impl Stage {
         };
         system.force(state, &mut self.force);
         self.statistics.force_evaluations += 1;
-        self.mass.multiply(&motion.a, residual);
-        for i in 0..residual.len() {
-            residual[i] = if self.fixed[i] {
-                0.0
-            } else {
-                residual[i] - self.force[i]
-            };
+        self.mass.residual(&motion.a, &self.force, residual);
+        for (index, _) in system.prescribed() {
+            residual[*index] = 0.0;
         }
         if let Some(constraints) = system.constraints() {
             constraints.complete_residual(&motion.q, &motion.a, residual);
@@ -361,10 +380,9 @@ impl Stage {
         }
     }
 
-    /// Largest weighted vector of a correction [m/s] and where it is; NaN counts as infinite.
-    fn norm(&self, correction: &[f64], velocity_factor: f64) -> (f64, usize) {
-        let (size, place) = self.norm.largest(correction);
-        (size * velocity_factor, place)
+    /// Largest weighted vector of a correction [m/s]; NaN counts as infinite.
+    fn norm(&self, correction: &[f64], velocity_factor: f64) -> f64 {
+        self.norm.size(correction) * velocity_factor
     }
 }
 

@@ -143,6 +143,44 @@ impl BeltBeam2 {
         Kinematics::new(c, curve, p, q)
     }
 
+    /// Writes the elastic force in the configuration `e` and, where rates are given, that of the damping.
+    #[inline(always)]
+    fn write_force<S: Scalar>(&self, e: &[S; DOF], rate: Option<&[S; DOF]>, force: &mut [S; DOF]) {
+        let nodes = [Node::new(e, 0), Node::new(e, 1)];
+        let shear = [nodes[0].shear, nodes[1].shear];
+        let lines = lines::lines(e);
+        let velocity = rate.map(lines::lines);
+        let mut by_lines = [[S::zero(); 2]; 3];
+        let (mut by_left, mut by_right, mut by_q) = (S::zero(), S::zero(), S::zero());
+        for point in &self.points {
+            let at = self.kinematics(point, &lines, shear);
+            let mut by = at.gradient(&point.stiffness);
+            if let Some(velocity) = &velocity {
+                let ([c0, c1], [curve0, curve1]) = self.damping_gradient(point, &at, velocity);
+                by.c = [by.c[0] + c0, by.c[1] + c1];
+                by.curve = [by.curve[0] + curve0, by.curve[1] + curve1];
+            }
+            point.shape.add(by.c, by.curve, &mut by_lines);
+            by_left += by.p * (1.0 - point.xi);
+            by_right += by.p * point.xi;
+            by_q += by.q;
+        }
+        let by_q = by_q * (1.0 / self.length);
+        let by_shear = [by_left - by_q, by_right + by_q];
+        *force = [S::zero(); DOF];
+        lines::subtract(&by_lines, force);
+        let by_thickness = self.thickness_gradient([nodes[0].thickness, nodes[1].thickness]);
+        unroll!(for k in 0..2 {
+            let gradient = nodes[k].shear_gradient();
+            unroll!(for i in 0..4 {
+                force[6 * k + 2 + i] -= by_shear[k] * gradient[i];
+            });
+            unroll!(for axis in 0..2 {
+                force[6 * k + 4 + axis] -= by_thickness[k] * nodes[k].u[axis];
+            });
+        });
+    }
+
     /// Integrated thickness stretch: energy and its derivatives by the two nodal strains.
     #[inline(always)]
     fn thickness_gradient<S: Scalar>(&self, strain: [S; 2]) -> [S; 2] {
@@ -207,35 +245,7 @@ impl Element for BeltBeam2 {
 
     #[inline(always)]
     fn force<S: Scalar>(&self, e: &[S], force: &mut [S]) {
-        let (e, force) = (coordinates(e), coordinates_mut(force));
-        let nodes = [Node::new(e, 0), Node::new(e, 1)];
-        let shear = [nodes[0].shear, nodes[1].shear];
-        let lines = lines::lines(e);
-        let mut by_lines = [[S::zero(); 2]; 3];
-        let (mut by_left, mut by_right, mut by_q) = (S::zero(), S::zero(), S::zero());
-        for point in &self.points {
-            let by = self
-                .kinematics(point, &lines, shear)
-                .gradient(&point.stiffness);
-            point.shape.add(by.c, by.curve, &mut by_lines);
-            by_left += by.p * (1.0 - point.xi);
-            by_right += by.p * point.xi;
-            by_q += by.q;
-        }
-        let by_q = by_q * (1.0 / self.length);
-        let by_shear = [by_left - by_q, by_right + by_q];
-        *force = [S::zero(); DOF];
-        lines::subtract(&by_lines, force);
-        let by_thickness = self.thickness_gradient([nodes[0].thickness, nodes[1].thickness]);
-        unroll!(for k in 0..2 {
-            let gradient = nodes[k].shear_gradient();
-            unroll!(for i in 0..4 {
-                force[6 * k + 2 + i] -= by_shear[k] * gradient[i];
-            });
-            unroll!(for axis in 0..2 {
-                force[6 * k + 4 + axis] -= by_thickness[k] * nodes[k].u[axis];
-            });
-        });
+        self.write_force(coordinates(e), None, coordinates_mut(force));
     }
 
     #[inline(always)]
@@ -310,6 +320,12 @@ impl Element for BeltBeam2 {
 
     fn is_damped(&self) -> bool {
         self.damping_time > 0.0
+    }
+
+    #[inline(always)]
+    fn damped_force<S: Scalar>(&self, e: &[S], rate: &[S], force: &mut [S]) {
+        let (e, rate) = (coordinates(e), coordinates(rate));
+        self.write_force(e, Some(rate), coordinates_mut(force));
     }
 
     #[inline(always)]

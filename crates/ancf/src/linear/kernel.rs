@@ -232,7 +232,7 @@ pub(super) fn accumulate_vector<S: Simd>(
         }
         for (k, coefficient) in rest.iter().enumerate() {
             let row = rows[(done + k) * width + j];
-            sums[0] = simd.mul_add_e_f64s(simd.splat_f64s(*coefficient), row, sums[0]);
+            sums[k] = simd.mul_add_e_f64s(simd.splat_f64s(*coefficient), row, sums[k]);
         }
         let [first, second, third, fourth] = sums;
         target[j] = simd.add_f64s(simd.add_f64s(second, third), simd.add_f64s(first, fourth));

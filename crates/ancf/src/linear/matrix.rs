@@ -178,6 +178,39 @@ impl BorderedMatrix {
         }
     }
 
+    /// Adds the small square `values` where the unknowns from `row` and `column` of a pair couple, counted as in
+    /// [`BorderedMatrix::add_pair`].
+    ///
+    /// # Panics
+    /// If `section` has no successor or the square leaves one of the two sections.
+    #[inline(always)]
+    pub fn add_pair_square<const N: usize>(
+        &mut self,
+        section: usize,
+        [row, column]: [usize; 2],
+        values: [[f64; N]; N],
+    ) {
+        let b = self.structure.block;
+        assert!(
+            row % b + N <= b && column % b + N <= b && column < 2 * b,
+            "{N} unknowns from ({row}, {column}) leave their section of {b}"
+        );
+        let Some(successor) = self.structure.successor(section) else {
+            panic!("section {section} has no successor in {:?}", self.structure);
+        };
+        let first = if row < b {
+            3 * b * (section * b + row) + b + column
+        } else {
+            3 * b * (successor * b + row - b) + column
+        };
+        for (i, values) in values.iter().enumerate() {
+            let entries = &mut self.blocks[first + 3 * b * i..][..N];
+            for (entry, value) in entries.iter_mut().zip(values) {
+                *entry += value;
+            }
+        }
+    }
+
     /// Adds `factor` times the `size x size` values whose rows start `stride` apart where the unknowns
     /// of a section from `row` couple with those from `column`, of it or a neighbour.
     ///

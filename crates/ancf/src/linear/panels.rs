@@ -1,6 +1,7 @@
 //! The product with a constant matrix whose sections are mostly alike.
 
-use super::kernel::{Aligned, accumulate_vector, multiply_vector, padded};
+use super::block_size::{BlockSize, with_block_size};
+use super::kernel::{Aligned, LANES, accumulate_vector, multiply_vector, padded};
 use super::{BorderedMatrix, Structure};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -59,24 +60,43 @@ impl SectionPanels {
         }
     }
 
-    /// Writes the product with `x` to `y`.
+    /// Writes the product with `x`, less `known`, to `y`.
     ///
     /// # Panics
     /// If a vector is not as long as the matrix has rows.
-    pub fn multiply(&mut self, x: &[f64], y: &mut [f64]) {
+    pub fn residual(&mut self, x: &[f64], known: &[f64], y: &mut [f64]) {
         let size = self.structure.size();
         assert_eq!(x.len(), size, "the factor has another length");
-        assert_eq!(y.len(), size, "the product has another length");
+        assert_eq!(known.len(), size, "what is known has another length");
+        assert_eq!(y.len(), size, "the residual has another length");
         let b = self.structure.block;
-        y[self.structure.chain()..].fill(0.0);
-        Arch::new().dispatch(Sections {
-            structure: self.structure,
-            panels: &self.panels,
-            kind: &self.kind,
+        let chain = self.structure.chain();
+        for (y, known) in y[chain..].iter_mut().zip(&known[chain..]) {
+            *y = -known;
+        }
+        let Self {
+            structure,
+            panels,
+            kind,
+            row,
+            ..
+        } = self;
+        with_block_size!(b, size => Arch::new().dispatch(Sections {
+            structure: *structure,
+            size,
+            panels,
+            kind,
             x,
-            row: &mut self.row,
-            take: |section: usize, row: &[f64]| y[section * b..][..b].copy_from_slice(row),
-        });
+            row,
+            take: |section: usize, row: &[f64]| {
+                let b = size.get();
+                let known = &known[section * b..][..b];
+                let values = y[section * b..][..b].iter_mut().zip(row);
+                for ((y, product), known) in values.zip(known) {
+                    *y = product - known;
+                }
+            },
+        }));
         for (row, column, value) in &self.border {
             y[*row] += value * x[*column];
         }
@@ -95,17 +115,19 @@ impl SectionPanels {
             "the factor has another length"
         );
         let mut sum = 0.0;
-        Arch::new().dispatch(Sections {
+        with_block_size!(b, size => Arch::new().dispatch(Sections {
             structure: self.structure,
+            size,
             panels: &self.panels,
             kind: &self.kind,
             x,
             row: &mut Aligned::new(padded(b)),
             take: |section: usize, row: &[f64]| {
+                let b = size.get();
                 let own = &x[section * b..][..b];
                 sum += own.iter().zip(row).map(|(x, y)| x * y).sum::<f64>();
             },
-        });
+        }));
         for (row, column, value) in &self.border {
             sum += x[*row] * value * x[*column];
         }
@@ -114,8 +136,9 @@ impl SectionPanels {
 }
 
 /// Gives the product of the rows of each section with `x`, without the border, to `take`.
-struct Sections<'a, F> {
+struct Sections<'a, B, F> {
     structure: Structure,
+    size: B,
     panels: &'a [Aligned],
     kind: &'a [usize],
     x: &'a [f64],
@@ -123,23 +146,25 @@ struct Sections<'a, F> {
     take: F,
 }
 
-impl<F: FnMut(usize, &[f64])> WithSimd for Sections<'_, F> {
+impl<B: BlockSize, F: FnMut(usize, &[f64])> WithSimd for Sections<'_, B, F> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self {
             structure,
+            size,
             panels,
             kind,
             x,
             row,
             mut take,
         } = self;
-        let b = structure.block;
-        let stride = padded(b);
+        let b = size.get();
+        let stride = b.next_multiple_of(LANES);
+        let row = &mut row[..stride];
         for section in 0..structure.sections {
-            let panel = &*panels[kind[section]];
+            let panel = &panels[kind[section]][..3 * b * stride];
             if section > 0 && section + 1 < structure.sections {
                 // All three sections stand together.
                 multiply_vector(simd, row, panel, &x[(section - 1) * b..][..3 * b]);

@@ -213,19 +213,13 @@ impl<E: Element> AddForce<'_, E> {
             let element = &self.mesh.elements[batch.first];
             let e = self.mesh.load::<S, N>(batch, self.q);
             let mut force = [S::zero(); N];
-            element.force(&e[..E::DOF], &mut force[..E::DOF]);
             if element.is_damped() {
                 let rate = self.mesh.load::<S, N>(batch, self.v);
-                element.add_damping_force(&e[..E::DOF], &rate[..E::DOF], &mut force[..E::DOF]);
+                element.damped_force(&e[..E::DOF], &rate[..E::DOF], &mut force[..E::DOF]);
+            } else {
+                element.force(&e[..E::DOF], &mut force[..E::DOF]);
             }
-            let mut stored = [[0.0; LANES]; N];
-            for (lanes, value) in stored.iter_mut().zip(&force) {
-                *lanes = value.store();
-            }
-            for lane in 0..batch.count {
-                self.mesh
-                    .scatter_entries(batch.first + lane, |i| stored[i][lane], self.f);
-            }
+            self.mesh.scatter_batch(batch, &force, self.f);
         }
     }
 }
@@ -254,11 +248,9 @@ impl<E: Element> AddTangent<'_, E> {
     fn sized<S: EightLanes, const N: usize>(self) {
         let square = E::DOF * E::DOF;
         let mut tangent = [[S::zero(); N]; N];
-        let mut stored = [[[0.0; LANES]; N]; N];
-        let mut local = [[0.0; N]; N];
         let tangent = &mut tangent.as_flattened_mut()[..square];
-        let stored = &mut stored.as_flattened_mut()[..square];
-        let local = &mut local.as_flattened_mut()[..square];
+        // The matrix of each element of a batch.
+        let mut locals = [[[0.0; N]; N]; LANES];
         for batch in self.mesh.batches() {
             let element = &self.mesh.elements[batch.first];
             let e = self.mesh.load::<S, N>(batch, self.q);
@@ -278,13 +270,21 @@ impl<E: Element> AddTangent<'_, E> {
                     tangent,
                 );
             }
-            for (lanes, value) in stored.iter_mut().zip(&*tangent) {
-                *lanes = value.store();
-            }
-            for lane in 0..batch.count {
-                for (value, lanes) in local.iter_mut().zip(&*stored) {
-                    *value = lanes[lane];
+            let (chunks, rest) = tangent.as_chunks::<LANES>();
+            for (chunk, rows) in chunks.iter().enumerate() {
+                let columns = S::transpose(*rows);
+                for lane in 0..LANES {
+                    let local = locals[lane].as_flattened_mut();
+                    local[chunk * LANES..][..LANES].copy_from_slice(&columns[lane].store());
                 }
+            }
+            for (i, value) in rest.iter().enumerate() {
+                for (local, value) in locals.iter_mut().zip(value.store()) {
+                    local.as_flattened_mut()[chunks.len() * LANES + i] = value;
+                }
+            }
+            for (lane, local) in locals[..batch.count].iter().enumerate() {
+                let local = &local.as_flattened()[..square];
                 self.mesh
                     .scatter_matrix(batch.first + lane, factor, local, self.matrix);
             }

@@ -23,6 +23,8 @@
 
 #[cfg(target_arch = "x86_64")]
 mod called;
+#[cfg(target_arch = "x86_64")]
+mod x86;
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -36,6 +38,24 @@ pub trait EightLanes: Scalar {
     fn load(values: &[f64; 8]) -> Self;
     /// The eight numbers.
     fn store(self) -> [f64; 8];
+
+    /// Whether any of the eight numbers is positive.
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        self.store().iter().any(|x| *x > 0.0)
+    }
+
+    /// Rows to columns: lane `i` of number `j` becomes lane `j` of number `i`.
+    #[inline(always)]
+    fn transpose(rows: [Self; 8]) -> [Self; 8] {
+        let mut columns = [[0.0; 8]; 8];
+        for (j, row) in rows.into_iter().enumerate() {
+            for (column, value) in columns.iter_mut().zip(row.store()) {
+                column[j] = value;
+            }
+        }
+        columns.map(|column| Self::load(&column))
+    }
 }
 
 /// Work that is compiled once for each kind of register.
@@ -94,27 +114,10 @@ pub trait Present: Simd {
     /// # Panics
     /// If the processor lacks the instructions: never inside [`dispatch`], which asks first.
     fn present() -> Self;
-}
 
-#[cfg(target_arch = "x86_64")]
-macro_rules! present {
-    ($set:ty) => {
-        impl Present for $set {
-            #[inline(always)]
-            fn present() -> Self {
-                match Self::try_new() {
-                    Some(simd) => simd,
-                    // `dispatch` runs kernels with this type only where `try_new` gave the proof.
-                    None => unreachable!("the processor has lost instructions"),
-                }
-            }
-        }
-    };
+    /// Rows to columns of a square of registers: eight numbers in `N` registers a row.
+    fn transpose<const N: usize>(self, rows: [[Self::f64s; N]; 8]) -> [[Self::f64s; N]; 8];
 }
-#[cfg(target_arch = "x86_64")]
-present!(pulp::x86::V3);
-#[cfg(target_arch = "x86_64")]
-present!(pulp::x86::V4);
 
 /// Eight numbers in `N` registers of the instruction set `T`.
 #[derive(Clone, Copy, Debug)]
@@ -157,6 +160,29 @@ impl<T: Present, const N: usize> EightLanes for Wide<T, N> {
         let (registers, _) = T::as_mut_simd_f64s(&mut values);
         registers[..N].copy_from_slice(&self.registers);
         values
+    }
+
+    #[inline(always)]
+    fn any_positive(self) -> bool {
+        let positive = |register: &T::f64s| {
+            let zero = self.simd.splat_f64s(0.0);
+            let mask = self.simd.greater_than_f64s(*register, zero);
+            self.simd.first_true_m64s(mask) < T::F64_LANES
+        };
+        self.registers.iter().any(positive)
+    }
+
+    #[inline(always)]
+    fn transpose(rows: [Self; 8]) -> [Self; 8] {
+        let simd = T::present();
+        let columns = simd.transpose(rows.map(
+            #[inline(always)]
+            |row| row.registers,
+        ));
+        columns.map(
+            #[inline(always)]
+            |registers| Self { simd, registers },
+        )
     }
 }
 

@@ -251,7 +251,7 @@ impl Newton {
         for _ in 0..options.max_iterations {
             self.factor(system)?;
             self.solver.solve(&mut self.correction);
-            let size = self.norm.largest(&self.correction).0;
+            let size = self.norm.size(&self.correction);
             history.push(size);
             if !size.is_finite() {
                 return Ok(false);
@@ -263,7 +263,7 @@ impl Newton {
                 self.step(system, damping);
                 self.residual(system, Which::Trial);
                 self.solver.solve(&mut self.trial_correction);
-                let next = self.norm.largest(&self.trial_correction).0;
+                let next = self.norm.size(&self.trial_correction);
                 if next < (1.0 - 0.25 * damping) * size || next < options.tolerance {
                     break next;
                 }

@@ -28,15 +28,36 @@ impl<S: EightLanes> Batch<'_, S> {
     fn weight(&self) -> S {
         S::load(&self.table.weight)
     }
-
-    /// Whether any of the points touches the pulley.
-    #[inline(always)]
-    fn touches(&self) -> bool {
-        self.contact.penetration.store().iter().any(|d| *d > 0.0)
-    }
 }
 
-/// Runs `work` for every batch of points of an element that may touch a pulley.
+/// Discs that hold eight consecutive elements at `places`, the last one repeated where there are fewer.
+#[inline(always)]
+fn hulls<S: EightLanes>(
+    contact: &BeltContact,
+    places: &[[usize; MAX_VECTORS]],
+    third: &Lanes<LANES>,
+    q: &[f64],
+) -> ([S; 2], S) {
+    let count = contact.line.vectors.len();
+    let mut lanes = [[[0.0; LANES]; 2]; MAX_VECTORS];
+    for lane in 0..LANES {
+        let at = &places[lane.min(places.len() - 1)];
+        for slot in 0..count {
+            for axis in 0..2 {
+                lanes[slot][axis][lane] = q[at[slot] + axis];
+            }
+        }
+    }
+    let mut vectors = [[S::zero(); 2]; MAX_VECTORS];
+    for slot in 0..count {
+        for axis in 0..2 {
+            vectors[slot][axis] = S::load(&lanes[slot][axis]);
+        }
+    }
+    (contact.line).hull(S::load(&third.0), contact.highest, &vectors)
+}
+
+/// Runs `work` for every batch of points of an element of which one is inside of a pulley.
 #[inline(always)]
 fn for_contacts<S: EightLanes>(
     contact: &BeltContact,
@@ -46,57 +67,71 @@ fn for_contacts<S: EightLanes>(
     let count = contact.line.vectors.len();
     let rotors = contact.rotors();
     let batches = contact.batches();
-    for element in 0..contact.kind_of.len() {
-        let at = &contact.places[element];
-        let mut position = [[0.0; 2]; MAX_VECTORS];
-        for slot in 0..count {
-            position[slot] = [state.q[at[slot]], state.q[at[slot] + 1]];
-        }
-        let (middle, reach) = contact.hull(element, &position);
+    let groups = contact.places.chunks(LANES).zip(&contact.thirds);
+    for (group, (places, third)) in groups.enumerate() {
+        let (middle, reach) = hulls::<S>(contact, places, third, state.q);
         for (p, pulley) in contact.pulleys.iter().enumerate() {
-            let table = contact.table(element, contact.line_of[p]);
             let [center, drift] = pulley.hub(state.time);
-            let (dx, dy) = (middle[0] - center[0], middle[1] - center[1]);
-            let limit = pulley.radius + reach;
-            if dx * dx + dy * dy >= limit * limit {
+            let arm = [middle[0] - center[0], middle[1] - center[1]];
+            let limit = reach + pulley.radius;
+            let near = limit * limit - (arm[0] * arm[0] + arm[1] * arm[1]);
+            if !near.any_positive() {
                 continue;
             }
+            let near = near.store();
             let speed = state.v[rotors + p];
-            for (k, table) in table.batches.iter().enumerate() {
-                let mut r = [S::zero(); 2];
-                let mut v = drift.map(
-                    #[inline(always)]
-                    |x| S::constant(0.0 - x),
-                );
-                for slot in 0..count {
-                    let shape = S::load(&table.shape[slot].0);
-                    for axis in 0..2 {
-                        r[axis] += shape * position[slot][axis];
-                        v[axis] += shape * state.v[at[slot] + axis];
-                    }
+            for (lane, at) in places.iter().enumerate() {
+                if near[lane] <= 0.0 {
+                    continue;
                 }
-                let index = element * batches + k;
-                let anchor = contact
-                    .bristles
-                    .get(index)
-                    .filter(|_| pulley.friction.has_memory())
-                    .map(|bristles| turned(bristles, p, state.q[rotors + p]));
-                let meeting = Meeting {
-                    r,
-                    v,
-                    center,
-                    speed,
-                    anchor,
-                };
-                work(&Batch {
-                    element,
-                    index,
-                    pulley: p,
-                    speed,
-                    at,
-                    table,
-                    contact: PointContact::new(&contact.penalty, pulley, &meeting),
-                });
+                let element = group * LANES + lane;
+                let table = contact.table(element, contact.line_of[p]);
+                for (k, table) in table.batches.iter().enumerate() {
+                    let mut r = [S::zero(); 2];
+                    for slot in 0..count {
+                        let shape = S::load(&table.shape[slot].0);
+                        for axis in 0..2 {
+                            r[axis] += shape * state.q[at[slot] + axis];
+                        }
+                    }
+                    let arm = [r[0] - center[0], r[1] - center[1]];
+                    let outside = arm[0] * arm[0] + arm[1] * arm[1] - pulley.radius * pulley.radius;
+                    if !(-outside).any_positive() {
+                        continue;
+                    }
+                    let mut v = drift.map(
+                        #[inline(always)]
+                        |x| S::constant(0.0 - x),
+                    );
+                    for slot in 0..count {
+                        let shape = S::load(&table.shape[slot].0);
+                        for axis in 0..2 {
+                            v[axis] += shape * state.v[at[slot] + axis];
+                        }
+                    }
+                    let index = element * batches + k;
+                    let anchor = contact
+                        .bristles
+                        .get(index)
+                        .filter(|_| pulley.friction.has_memory())
+                        .map(|bristles| turned(bristles, p, state.q[rotors + p]));
+                    let meeting = Meeting {
+                        r,
+                        v,
+                        center,
+                        speed,
+                        anchor,
+                    };
+                    work(&Batch {
+                        element,
+                        index,
+                        pulley: p,
+                        speed,
+                        at,
+                        table,
+                        contact: PointContact::new(&contact.penalty, pulley, &meeting),
+                    });
+                }
             }
         }
     }
@@ -145,36 +180,88 @@ impl LaneKernel for Resultants<'_> {
     #[inline(always)]
     fn run<S: EightLanes>(self) {
         let (this, out) = (self.contact, self.out);
+        // Elements on one pulley follow one another: lanes are summed where the pulley changes.
+        let mut sums = Sums::<S>::zero();
+        let mut pulley = 0;
         for_contacts::<S>(
             this,
             self.state,
             #[inline(always)]
             |batch| {
-                if !batch.touches() {
-                    return;
+                if batch.pulley != pulley {
+                    sums.add_to(&mut out[pulley]);
+                    sums = Sums::zero();
+                    pulley = batch.pulley;
                 }
-                let radius = this.pulleys[batch.pulley].radius;
-                let contact = &batch.contact;
-                let weight = contact
-                    .penetration
-                    .select_positive(batch.weight(), S::zero());
-                let total = &mut out[batch.pulley];
-                let force = contact.force();
-                total.torque += sum(contact.torque(radius) * weight);
-                total.hub_force[0] -= sum(force[0] * weight);
-                total.hub_force[1] -= sum(force[1] * weight);
-                total.length += sum(weight);
-                total.slip_speed += sum(contact.slip * weight);
-                total.friction_loss += sum(contact.friction_loss(radius, batch.speed) * weight);
-                let elastic = contact.penetration * this.penalty.stiffness;
-                total.contact_loss += sum((contact.normal_force - elastic) * contact.rate * weight);
-                total.stored_energy += sum(elastic * contact.penetration * 0.5 * weight);
-                let deepest = weight.select_positive(contact.penetration, S::zero());
-                for penetration in deepest.store() {
-                    total.penetration = total.penetration.max(penetration);
-                }
+                sums.add(batch, this.pulleys[pulley].radius, this.penalty.stiffness);
             },
         );
+        if let Some(total) = out.get_mut(pulley) {
+            sums.add_to(total);
+        }
+    }
+}
+
+/// What [`PulleyContact`] sums, by lane.
+struct Sums<S> {
+    torque: S,
+    hub_force: [S; 2],
+    length: S,
+    slip: S,
+    penetration: S,
+    friction_loss: S,
+    contact_loss: S,
+    stored_energy: S,
+}
+
+impl<S: EightLanes> Sums<S> {
+    #[inline(always)]
+    fn zero() -> Self {
+        let zero = S::zero();
+        Self {
+            torque: zero,
+            hub_force: [zero; 2],
+            length: zero,
+            slip: zero,
+            penetration: zero,
+            friction_loss: zero,
+            contact_loss: zero,
+            stored_energy: zero,
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, batch: &Batch<'_, S>, radius: f64, stiffness: f64) {
+        let contact = &batch.contact;
+        let depth = contact.penetration;
+        let weight = depth.select_positive(batch.weight(), S::zero());
+        let force = contact.force();
+        self.torque += contact.torque(radius) * weight;
+        self.hub_force[0] -= force[0] * weight;
+        self.hub_force[1] -= force[1] * weight;
+        self.length += weight;
+        self.slip += contact.slip * weight;
+        self.friction_loss += contact.friction_loss(radius, batch.speed) * weight;
+        let elastic = depth * stiffness;
+        self.contact_loss += (contact.normal_force - elastic) * contact.rate * weight;
+        self.stored_energy += elastic * depth * 0.5 * weight;
+        let deepest = weight.select_positive(depth, S::zero());
+        self.penetration = (deepest - self.penetration).select_positive(deepest, self.penetration);
+    }
+
+    #[inline(always)]
+    fn add_to(&self, total: &mut PulleyContact) {
+        total.torque += sum(self.torque);
+        total.hub_force[0] += sum(self.hub_force[0]);
+        total.hub_force[1] += sum(self.hub_force[1]);
+        total.length += sum(self.length);
+        total.slip_speed += sum(self.slip);
+        total.friction_loss += sum(self.friction_loss);
+        total.contact_loss += sum(self.contact_loss);
+        total.stored_energy += sum(self.stored_energy);
+        for penetration in self.penetration.store() {
+            total.penetration = total.penetration.max(penetration);
+        }
     }
 }
 
@@ -198,9 +285,6 @@ impl LaneKernel for AddForce<'_> {
             self.state,
             #[inline(always)]
             |batch| {
-                if !batch.touches() {
-                    return;
-                }
                 let weight = batch.weight();
                 let f = batch.contact.force();
                 let torque = batch.contact.torque(this.pulleys[batch.pulley].radius);
@@ -222,8 +306,6 @@ pub(super) struct AddTangent<'a> {
     pub state: State<'a>,
     pub position_factor: f64,
     pub velocity_factor: f64,
-    /// Element matrix.
-    pub local: &'a mut [f64],
     pub matrix: &'a mut BorderedMatrix,
 }
 
@@ -237,22 +319,15 @@ impl LaneKernel for AddTangent<'_> {
             state,
             position_factor,
             velocity_factor,
-            local,
             matrix,
         } = self;
-        let dof = 2 * this.node_dof;
         let count = this.line.vectors.len();
         let pairs = &this.line.pairs;
-        // What every batch writes to is the same part of the matrix.
-        local.fill(0.0);
         for_contacts::<S>(
             this,
             state,
             #[inline(always)]
             |batch| {
-                if !batch.touches() {
-                    return;
-                }
                 let weight = batch.weight();
                 let radius = this.pulleys[batch.pulley].radius;
                 let tangent = batch
@@ -266,12 +341,11 @@ impl LaneKernel for AddTangent<'_> {
                         |entry| contract(entry * weight, products),
                     );
                     for (k, [row, column]) in pairs.by_ref().take(LANES).enumerate() {
-                        for (row, column) in [(row, column), (column, row)] {
-                            let at = 2 * row * dof + 2 * column;
-                            local[at] = blocks[0][k];
-                            local[at + 1] = blocks[1][k];
-                            local[at + dof] = blocks[2][k];
-                            local[at + dof + 1] = blocks[3][k];
+                        let values = [[blocks[0][k], blocks[1][k]], [blocks[2][k], blocks[3][k]]];
+                        let at = [2 * row, 2 * column];
+                        matrix.add_pair_square(batch.element, at, values);
+                        if row != column {
+                            matrix.add_pair_square(batch.element, [at[1], at[0]], values);
                         }
                     }
                 }
@@ -285,7 +359,6 @@ impl LaneKernel for AddTangent<'_> {
                     matrix.add_border_column(batch.pulley, *at, &[fx[slot], fy[slot]]);
                     matrix.add_border_row(batch.pulley, *at, &[tx[slot], ty[slot]]);
                 }
-                matrix.add_pair(batch.element, 1.0, local);
                 matrix.add_corner(
                     batch.pulley,
                     batch.pulley,

@@ -2,7 +2,7 @@
 
 use ancf::element::LineElement;
 use ancf::quadrature::Rule;
-use ancf::scalar::Lanes;
+use ancf::scalar::{Lanes, Scalar};
 
 /// Integration points computed side by side.
 pub(super) const LANES: usize = 8;
@@ -37,6 +37,49 @@ impl Line {
             pairs,
         }
     }
+
+    /// Centre and radius of a disc that holds all points up to `height` beside the centre line: the hull
+    /// of its Bézier points for a cubic (r1, r1_x, r2, r2_x), of its ends for a straight one, widened.
+    /// `third` is a third of the element's undeformed length [m].
+    #[inline(always)]
+    pub fn hull<S: Scalar>(
+        &self,
+        third: S,
+        height: f64,
+        vectors: &[[S; 2]; MAX_VECTORS],
+    ) -> ([S; 2], S) {
+        let cubic = self.centre == 4;
+        let (first, last) = (vectors[0], vectors[if cubic { 2 } else { 1 }]);
+        let middle = [(first[0] + last[0]) * 0.5, (first[1] + last[1]) * 0.5];
+        let square = |x: S, y: S| {
+            let (dx, dy) = (x - middle[0], y - middle[1]);
+            dx * dx + dy * dy
+        };
+        let mut reach = square(first[0], first[1]);
+        if cubic {
+            let (a, b) = (vectors[1], vectors[3]);
+            reach = larger(
+                reach,
+                square(first[0] + third * a[0], first[1] + third * a[1]),
+            );
+            reach = larger(
+                reach,
+                square(last[0] - third * b[0], last[1] - third * b[1]),
+            );
+        }
+        let mut reach = reach.sqrt();
+        if height > 0.0 {
+            let across = |v: [S; 2]| (v[0] * v[0] + v[1] * v[1]).sqrt();
+            let slopes = [vectors[self.centre], vectors[self.centre + 1]].map(across);
+            reach += larger(slopes[0], slopes[1]) * height;
+        }
+        (middle, reach)
+    }
+}
+
+#[inline(always)]
+fn larger<S: Scalar>(a: S, b: S) -> S {
+    (a - b).select_positive(a, b)
 }
 
 /// Pairs `a <= b` of so many slots, row by row.
@@ -48,8 +91,6 @@ fn slot_pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
 #[derive(Clone, Debug)]
 pub(super) struct Table {
     pub batches: Vec<BatchTable>,
-    /// Undeformed length of the element [m].
-    length: f64,
 }
 
 /// Up to eight points. Lanes without a point repeat the last one with weight zero.
@@ -108,38 +149,6 @@ impl Table {
                 table
             })
             .collect();
-        Self {
-            batches,
-            length: element.length(),
-        }
-    }
-
-    /// Centre and radius of a disc that holds all points up to `height` beside the centre line: the hull
-    /// of its Bézier points for a cubic (r1, r1_x, r2, r2_x), of its ends for a straight one, widened.
-    #[inline(always)]
-    pub fn hull(
-        &self,
-        line: &Line,
-        height: f64,
-        vectors: &[[f64; 2]; MAX_VECTORS],
-    ) -> ([f64; 2], f64) {
-        let cubic = line.centre == 4;
-        let (first, last) = (vectors[0], vectors[if cubic { 2 } else { 1 }]);
-        let middle = [0.5 * (first[0] + last[0]), 0.5 * (first[1] + last[1])];
-        let square = |x: f64, y: f64| (x - middle[0]).powi(2) + (y - middle[1]).powi(2);
-        let mut reach = square(first[0], first[1]);
-        if cubic {
-            let third = self.length / 3.0;
-            let (a, b) = (vectors[1], vectors[3]);
-            reach = reach
-                .max(square(first[0] + third * a[0], first[1] + third * a[1]))
-                .max(square(last[0] - third * b[0], last[1] - third * b[1]));
-        }
-        let mut reach = reach.sqrt();
-        if height > 0.0 {
-            let across = |v: [f64; 2]| (v[0] * v[0] + v[1] * v[1]).sqrt();
-            reach += height * across(vectors[line.centre]).max(across(vectors[line.centre + 1]));
-        }
-        (middle, reach)
+        Self { batches }
     }
 }

@@ -80,10 +80,35 @@ impl<S: Scalar> Kinematics<S> {
 
 impl BeltBeam2 {
     /// Viscosity times weight of a point: axial and bending.
+    #[inline(always)]
     fn viscosity(&self, point: &Point) -> (f64, f64) {
         (
             4.0 * self.damping_time * point.stiffness.axial,
             self.damping_time * point.stiffness.bending,
+        )
+    }
+
+    /// What opposes the damping force at a point, by c and c': viscosity times rates.
+    #[inline(always)]
+    pub(super) fn damping_gradient<S: Scalar>(
+        &self,
+        point: &Point,
+        at: &Kinematics<S>,
+        velocity: &Lines<S>,
+    ) -> ([S; 2], [S; 2]) {
+        let (axial, bending) = self.viscosity(point);
+        let (dc, dcurve) = point.shape.apply(velocity);
+        let (by_c, by_curve) = at.kappa_gradient();
+        let kappa_rate =
+            by_c[0] * dc[0] + by_c[1] * dc[1] + by_curve[0] * dcurve[0] + by_curve[1] * dcurve[1];
+        let axial = (at.c[0] * dc[0] + at.c[1] * dc[1]) * axial;
+        let bending = kappa_rate * bending;
+        (
+            [
+                axial * at.c[0] + bending * by_c[0],
+                axial * at.c[1] + bending * by_c[1],
+            ],
+            [bending * by_curve[0], bending * by_curve[1]],
         )
     }
 
@@ -97,18 +122,10 @@ impl BeltBeam2 {
         let (position, velocity) = (lines::lines(e), lines::lines(rate));
         let mut sum = [[S::zero(); 2]; 3];
         for point in &self.points {
-            let at = Rates::new(&point.shape, &position, &velocity);
-            let (axial, bending) = self.viscosity(point);
-            let (axial, bending) = (at.strain_rate * axial, at.kappa_rate * bending);
-            let by = at.kappa_gradient;
-            point.shape.add(
-                [
-                    axial * at.c[0] + bending * by[0],
-                    axial * at.c[1] + bending * by[1],
-                ],
-                [bending * by[2], bending * by[3]],
-                &mut sum,
-            );
+            let (c, curve) = point.shape.apply(&position);
+            let at = Kinematics::new(c, curve, S::zero(), S::zero());
+            let (by_c, by_curve) = self.damping_gradient(point, &at, &velocity);
+            point.shape.add(by_c, by_curve, &mut sum);
         }
         lines::subtract(&sum, force);
     }

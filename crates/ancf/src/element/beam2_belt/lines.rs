@@ -51,12 +51,15 @@ impl Shape {
     /// `c` and `c'`.
     #[inline(always)]
     pub fn apply<S: Scalar>(&self, lines: &Lines<S>) -> ([S; 2], [S; 2]) {
-        let combine = |by: &[f64; 3], axis: usize| {
-            lines[0][axis] * by[0] + lines[1][axis] * by[1] + lines[2][axis] * by[2]
-        };
         (
-            [combine(&self.slope, 0), combine(&self.slope, 1)],
-            [combine(&self.curve, 0), combine(&self.curve, 1)],
+            [
+                combine(lines, &self.slope, 0),
+                combine(lines, &self.slope, 1),
+            ],
+            [
+                combine(lines, &self.curve, 0),
+                combine(lines, &self.curve, 1),
+            ],
         )
     }
 
@@ -69,6 +72,12 @@ impl Shape {
             });
         });
     }
+}
+
+/// A component of the sum of line vectors, each times a factor. A closure here is left a call in some registers.
+#[inline(always)]
+fn combine<S: Scalar>(lines: &Lines<S>, by: &[f64; 3], axis: usize) -> S {
+    lines[0][axis] * by[0] + lines[1][axis] * by[1] + lines[2][axis] * by[2]
 }
 
 /// The line vectors of coordinates.
