@@ -329,7 +329,8 @@ impl Recorder {
                 let gained =
                     pulley.inertia * (momentum.speed - momentum.first_speed - momentum.lagging);
                 let least = LEAST_TORQUE * self.rest_tension * pulley.radius * self.state.time;
-                (gained - momentum.impulse).abs() / momentum.moved.max(least)
+                let held = pulley.inertia * momentum.first_speed.abs();
+                (gained - momentum.impulse).abs() / (momentum.moved.max(least) + held)
             })
             .fold(0.0, f64::max);
         Audit {
