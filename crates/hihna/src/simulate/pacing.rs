@@ -85,7 +85,7 @@ mod tests {
     /// What is asked for in the last tenth of a run, where it matters most.
     fn last(residual: impl Fn(f64) -> f64) -> Pace {
         let mut pacing = Pacing::new(1.0e-4);
-        let end = STEPS * 100;
+        let end = STEPS * 1000;
         let paces: Vec<Pace> = (1..=end)
             .map(|step| pacing.pace(step as f64, residual(step as f64), 1.0))
             .collect();
@@ -101,7 +101,7 @@ mod tests {
     /// stands beyond the limit, wavers, or is small for nothing.
     #[test]
     fn what_grows_beyond_the_limit_is_held_back() {
-        let end = (STEPS * 100) as f64;
+        let end = (STEPS * 1000) as f64;
         assert_eq!(last(|t| 0.7e-4 * t / end), Pace::Finer);
         assert_eq!(last(|t| 0.44e-4 + 0.08e-4 * t / end), Pace::Hold);
         assert_eq!(last(|_| -3.0e-4), Pace::Free);
