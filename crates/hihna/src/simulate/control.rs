@@ -24,6 +24,9 @@ const AFTER_A_JUMP: f64 = 0.3;
 /// second-order dispersion `(omega h)² / 12` is 2e-4 then.
 const SWING_STEP: f64 = 0.05;
 
+/// Least number of steps of a run whose steps are chosen, so that also a short one resolves how the drive sets off.
+const LEAST_STEPS: f64 = 200.0;
+
 /// Slowest speed to which tolerances are fitted, relative to that of [`wave_bound`]: rounding of slower motion is no
 /// longer far below them.
 const SLOWEST: f64 = 1.0e-3;
@@ -142,7 +145,7 @@ pub(super) fn control(drive: &Drive, laws: &UserLaws, mounting: &Mounting) -> Co
             (0.02 * smallest / speed * fineness)
                 .min(SWING_STEP * fineness / slowest_swing(drive, mounting))
                 .min(SWING_STEP * fineness / fastest_and_slowest_harmonic(drive).0)
-                .min(run.end_time),
+                .min(run.end_time / LEAST_STEPS),
             Some(PREDICTION_TOLERANCE * speed * fineness),
         ),
     };
