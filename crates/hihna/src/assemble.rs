@@ -293,7 +293,7 @@ impl<E: BeltElementType> Assembly<E> {
             system: system(drive, &layout, mesh),
             motion: on_path::<E>(drive, &layout, &mounting, &starts),
             warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
-            holds: vec![hold_along(drive, &layout, 0)],
+            holds: vec![hold_along(drive, &layout, [0; 2])],
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),
@@ -314,7 +314,7 @@ impl<E: BeltElementType> Assembly<E> {
             system: system(drive, &layout, Mesh::closed(elements)),
             motion: on_path::<E>(drive, &layout, &mounting, starts),
             warnings: Vec::new(),
-            holds: vec![hold_along(drive, &layout, 0)],
+            holds: vec![hold_along(drive, &layout, [0; 2])],
             element_start: starts.iter().map(|s| s * mounting.length).collect(),
             layout,
             mounting,
@@ -407,12 +407,12 @@ fn points_of(contact: &Contact, count: usize) -> Rule {
     }
 }
 
-/// Holds the vector from coordinate `first` on along the path at the first node, by the axial stiffness of an
-/// element: what is left to hold, the difference that the mesh makes, moves it by next to nothing.
-fn hold_along(drive: &Drive, layout: &Layout, first: usize) -> Hold {
+/// Holds the mean of the vectors that begin at these coordinates along the path at the first node, by the axial stiffness
+/// of an element: what is left to hold, the difference that the mesh makes, moves it by next to nothing.
+fn hold_along(drive: &Drive, layout: &Layout, vectors: [usize; 2]) -> Hold {
     let [x, y] = layout.point(drive.belt.first_node).tangent;
     Hold {
-        first,
+        vectors,
         direction: [x, y, 0.0],
         stiffness: hold_stiffness(drive, layout),
     }

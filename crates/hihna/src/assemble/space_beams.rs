@@ -74,11 +74,11 @@ impl<E: SpaceBeltElement> SpaceBeamAssembly<E> {
             contact.center = pulley.middle(0.0);
             contact.displacement = None;
         }
-        let mut holds = vec![hold_along(drive, &layout, 0)];
+        let mut holds = vec![hold_along(drive, &layout, [0; 2])];
         if drive.pulley.iter().any(Pulley::is_misaligned) && !is_guided(drive) {
             let stiffness = hold_stiffness(drive, &layout);
             holds.extend((0..count).map(|node| Hold {
-                first: node * E::NODE_DOF,
+                vectors: [node * E::NODE_DOF; 2],
                 direction: [0.0, 0.0, 1.0],
                 stiffness,
             }));
