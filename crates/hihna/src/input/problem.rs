@@ -37,10 +37,10 @@ impl FieldPath {
         })
     }
 
-    /// The table of the drive that it is in: `belt`, or one of the pulleys.
+    /// The table that the field, or the list of the item, stands in: `belt`, one of the pulleys or a table in it.
     pub fn table(&self) -> &[Segment] {
-        let of_a_list = matches!(self.0.get(1), Some(Segment::Item { .. }));
-        &self.0[..self.0.len().min(1 + usize::from(of_a_list))]
+        let is_field = |segment: &Segment| matches!(segment, Segment::Field(_));
+        &self.0[..self.0.iter().rposition(is_field).unwrap_or(0)]
     }
 
     fn with(&self, segment: Segment) -> Self {
