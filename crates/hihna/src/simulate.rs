@@ -127,8 +127,8 @@ impl Audit {
     }
 }
 
-/// Hours to days of computing.
-const MOST_STEPS: f64 = 1.0e9;
+/// Most steps of a run: hours to days of computing.
+pub(crate) const MOST_STEPS: f64 = 1.0e9;
 
 /// A run that failed.
 #[derive(Clone, Debug, Error, PartialEq)]
