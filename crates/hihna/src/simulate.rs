@@ -16,7 +16,8 @@ use ancf::system::Mechanics;
 use thiserror::Error;
 
 use crate::assemble::{
-    Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, SpaceBeamAssembly, Warning,
+    Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, Rest, SpaceBeamAssembly,
+    Warning,
 };
 use crate::contact::surface::SurfaceContact;
 use crate::drive::{BeltElement, Drive, Joint, Start, Until};
@@ -101,6 +102,16 @@ pub struct StartState {
     pub penetration: f64,
     /// Newton iterations.
     pub iterations: usize,
+}
+
+impl StartState {
+    /// How the belt rests.
+    pub(crate) fn rest(&self) -> Rest {
+        Rest {
+            tension: self.tension,
+            penetration: self.penetration,
+        }
+    }
 }
 
 /// The balance of a run.
@@ -334,6 +345,7 @@ fn run<E: Element, L: PulleyLaw<E>>(
 
     let mut recorder = Recorder::new(drive, &assembly);
     let start = recorder.start(drive, &assembly, settled);
+    assembly.judge(drive, start.rest());
     tracing::info!(
         iterations = start.iterations,
         tension = start.tension,

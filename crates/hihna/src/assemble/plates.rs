@@ -7,8 +7,8 @@ use ancf::statics::Hold;
 use ancf::system::System;
 
 use super::{
-    Assembly, AssemblyError, Mounting, closable, coarse_mesh, hold_along, hold_stiffness, material,
-    penalty, rotor, rule,
+    Assembly, AssemblyError, Mounting, closable, coarse_elements, hold_along, hold_stiffness,
+    material, penalty, rotor, rule,
 };
 use crate::contact::surface::{SurfaceContact, SurfacePulley};
 use crate::drive::{Belt, Drive, PlateBending, Pulley};
@@ -51,7 +51,7 @@ impl PlateAssembly {
         Ok(Self {
             motion: on_path(drive, &layout, &mounting, contraction),
             system,
-            warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
+            warnings: coarse_elements(drive, &layout, &mounting),
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),

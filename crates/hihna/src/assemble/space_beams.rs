@@ -10,8 +10,8 @@ use ancf::system::System;
 
 use super::plates::surface_pulley;
 use super::{
-    Assembly, AssemblyError, Mounting, closable, coarse_mesh, hold_along, hold_stiffness, material,
-    penalty, points_of, rotor, rule,
+    Assembly, AssemblyError, Mounting, closable, coarse_elements, hold_along, hold_stiffness,
+    material, penalty, points_of, rotor, rule,
 };
 use crate::contact::surface::{Face, Groove, SurfaceContact, SurfacePulley};
 use crate::drive::{Belt, Drive, Pulley};
@@ -87,7 +87,7 @@ impl<E: SpaceBeltElement> SpaceBeamAssembly<E> {
             system,
             motion: on_path::<E>(drive, &layout, &mounting),
             holds,
-            warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
+            warnings: coarse_elements(drive, &layout, &mounting),
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),
