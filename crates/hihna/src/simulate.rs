@@ -31,6 +31,7 @@ use place::place;
 use recorder::Recorder;
 pub use settling::Settling;
 use settling::Watch;
+pub(crate) use settling::last_kink;
 pub use steady_start::NoSteadyStart;
 
 /// Correction, in smallest radii, at which the belt is at rest.
