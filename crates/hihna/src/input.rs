@@ -183,11 +183,10 @@ impl Drive {
     }
 }
 
-/// Adds the rules that `drive` breaks to the `problems` that it has: those of tables without any, as a field out of its range breaks
-/// rules by the way.
+/// Adds the rules that `drive` breaks to the `problems` that it has, but for those that a field out of its range breaks by the way.
 fn add_broken_rules(drive: &Drive, problems: &mut Vec<Problem>) {
     let mut broken = rules::problems(drive);
-    broken.retain(|rule| problems.iter().all(|p| p.path.table() != rule.path.table()));
+    broken.retain(|rule| problems.iter().all(|p| p.path.scope() != rule.path.scope()));
     problems.extend(broken);
     if problems.is_empty() {
         problems.extend(rules::mounting(drive));

@@ -37,10 +37,11 @@ impl FieldPath {
         })
     }
 
-    /// The table that the field, or the list of the item, stands in: `belt`, one of the pulleys or a table in it.
-    pub fn table(&self) -> &[Segment] {
-        let is_field = |segment: &Segment| matches!(segment, Segment::Field(_));
-        &self.0[..self.0.iter().rposition(is_field).unwrap_or(0)]
+    /// What a value out of range may break rules of by the way: its table, of a pulley only the field.
+    pub fn scope(&self) -> &[Segment] {
+        let of_a_list = matches!(self.0.get(1), Some(Segment::Item { .. }));
+        let depth = if of_a_list { 3 } else { 1 };
+        &self.0[..self.0.len().min(depth)]
     }
 
     fn with(&self, segment: Segment) -> Self {
