@@ -48,24 +48,26 @@ pub struct Settle {
     pub max_iterations: usize,
 }
 
-/// A spring that keeps a vector near its start along a direction, and not at all across it.
+/// A spring that keeps the mean of two vectors near its start along a direction, and not at all across it: they may draw
+/// closer, as nodes beside the middle of a strip do while its width contracts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hold {
-    /// First coordinate of the vector.
-    pub first: usize,
-    /// Unit vector; zero beyond the dimension of the vector.
+    /// First coordinates of the vectors; the same twice holds one vector.
+    pub vectors: [usize; 2],
+    /// Unit vector; zero beyond the dimension of the vectors.
     pub direction: [f64; 3],
     /// Stiffness [N/m].
     pub stiffness: f64,
 }
 
 impl Hold {
-    /// Components of the direction that are not zero, with their coordinates.
+    /// What is held as a sum over coordinates, with the factors in it that are not zero.
     fn components(&self) -> impl Iterator<Item = (usize, f64)> + Clone + use<> {
-        let first = self.first;
         let components = self.direction.into_iter().enumerate();
         let components = components.filter(|(_, component)| *component != 0.0);
-        components.map(move |(axis, component)| (first + axis, component))
+        self.vectors.into_iter().flat_map(move |first| {
+            (components.clone()).map(move |(axis, component)| (first + axis, 0.5 * component))
+        })
     }
 
     fn add_force(&self, start: &[f64], q: &[f64], force: &mut [f64]) {

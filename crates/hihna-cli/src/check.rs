@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use clap::Args;
-use hihna::assemble::{self, AssemblyError, Mounting};
+use hihna::assemble::{self, AssemblyError, Mounting, Rest};
 use hihna::drive::{Drive, Pulley};
 use hihna::layout::Layout;
 use hihna::simulate::RunError;
@@ -30,9 +30,12 @@ pub struct Arguments {
 pub fn check(arguments: &Arguments) -> Result<(), Failure> {
     let drive = arguments.source.load()?;
     let (layout, mounting) = mount(&drive).map_err(RunError::Assembly)?;
-    let warnings: Vec<_> = assemble::coarse_mesh(&drive, &mounting)
-        .iter()
-        .map(ToString::to_string)
+    let soft = Rest::estimate(&drive, &layout, &mounting)
+        .and_then(|rest| rest.soft_contact(&drive, &layout, &mounting));
+    let warnings: Vec<_> = assemble::coarse_elements(&drive, &layout, &mounting)
+        .into_iter()
+        .chain(soft)
+        .map(|warning| warning.to_string())
         .collect();
     if arguments.json {
         return standard_output::print_json(&in_json(&drive, &layout, &mounting, &warnings));

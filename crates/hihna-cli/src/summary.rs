@@ -48,7 +48,13 @@ pub fn in_words(summary: &Summary, folder: &Path) -> String {
                 with_prefix(settling.window, "s")
             );
         }
-        _ => text.push_str("Means over the last tenth of the run:\n\n"),
+        _ => {
+            let _ = writeln!(
+                text,
+                "Means over the last {}:\n",
+                summary.averaged.in_words()
+            );
+        }
     }
     let _ = writeln!(text, "{}\n", pulleys(&summary.steady).trim_fmt());
     let _ = writeln!(

@@ -320,6 +320,13 @@ fn check_prints_the_layout() {
     // The centre line lies half of the thickness further out: pi times 10 mm more path.
     let output = hihna(&folder, &["check", "--set", "contact.surface=face"]);
     assert!(text(&output.stdout).contains("1.307689 m"), "{output:?}");
+    // A hundredth of the stiffness leaves a seventh of the tension.
+    let output = hihna(&folder, &["check", "--set", "contact.stiffness=1e5"]);
+    let warned = text(&output.stderr);
+    assert!(
+        warned.contains("3.955 N of tension, 28.19 N on rigid pulleys"),
+        "{output:?}"
+    );
     let fan = "pulley.driven.load={ law = \"fan\", torque = 1.0, speed = 12.0 }";
     let output = hihna(&folder, &["check", "--set", fan]);
     assert!(

@@ -40,6 +40,14 @@ pub fn means(results: &Results) -> String {
             "means over the last two windows of {}",
             with_prefix(window, "s")
         )
+    } else if let Some(periods) = results.summary["averaged"]["periods"].as_u64() {
+        let of = |end: &str| results.number(&["averaged", end]);
+        let periods = match periods {
+            1 => "period".to_owned(),
+            _ => format!("{periods} periods"),
+        };
+        let duration = with_prefix(of("to") - of("from"), "s");
+        format!("means over the last {periods} of the irregularity, {duration}")
     } else {
         "means over the last tenth of the run".to_owned()
     }

@@ -2,6 +2,7 @@
 //! path around the pulleys, the nodes `path / n` apart.
 
 mod plates;
+mod rest;
 mod space_beams;
 
 use std::num::NonZeroUsize;
@@ -23,9 +24,11 @@ use crate::drive::{Belt, BeltElement, Contact, Drive, Harmonic, Integration, Pul
 use crate::friction::{Frictionless, Law};
 use crate::layout::{self, Layout, LayoutError};
 use crate::profile::Profile;
+use crate::quantities::with_prefix;
 
 pub use plates::PlateAssembly;
 pub(crate) use plates::contraction;
+pub use rest::{Rest, Stiffness};
 pub(crate) use space_beams::is_guided;
 pub use space_beams::{SpaceBeamAssembly, SpaceBeltElement};
 
@@ -124,6 +127,43 @@ pub enum Warning {
         turn: f64,
         /// Number of elements that would do.
         elements: usize,
+    },
+    /// An element is longer than a pulley's arc.
+    #[error(
+        "less than an element lies on pulley `{pulley}`, {} of {}: contact is resolved poorly; use at least {elements} elements",
+        with_prefix(*.arc, "m"),
+        with_prefix(*.element, "m")
+    )]
+    ShortArc {
+        /// The pulley.
+        pulley: String,
+        /// Length of its arc [m].
+        arc: f64,
+        /// Length of an element on the path [m].
+        element: f64,
+        /// Number of elements of which one would fit.
+        elements: usize,
+    },
+    /// The belt sinks in so far that it is not mounted as was asked.
+    #[error(
+        "the contact is soft: at rest the belt has {} of tension, {} on rigid pulleys, and sinks {} into a radius of {} or more; {}",
+        with_prefix(*.tension, "N"),
+        with_prefix(*.path_tension, "N"),
+        with_prefix(*.penetration, "m"),
+        with_prefix(*.radius, "m"),
+        Stiffness::remedy(*.enough)
+    )]
+    SoftContact {
+        /// Mean true axial force at rest [N].
+        tension: f64,
+        /// The same on rigid pulleys [N].
+        path_tension: f64,
+        /// Largest penetration [m].
+        penetration: f64,
+        /// Smallest radius [m].
+        radius: f64,
+        /// What would do, where it is known.
+        enough: Option<Stiffness>,
     },
     /// The program that ran the drive stated a law itself.
     #[error(
@@ -292,8 +332,8 @@ impl<E: BeltElementType> Assembly<E> {
         Ok(Self {
             system: system(drive, &layout, mesh),
             motion: on_path::<E>(drive, &layout, &mounting, &starts),
-            warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
-            holds: vec![hold_along(drive, &layout, 0)],
+            warnings: coarse_elements(drive, &layout, &mounting),
+            holds: vec![hold_along(drive, &layout, [0; 2])],
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),
@@ -314,7 +354,7 @@ impl<E: BeltElementType> Assembly<E> {
             system: system(drive, &layout, Mesh::closed(elements)),
             motion: on_path::<E>(drive, &layout, &mounting, starts),
             warnings: Vec::new(),
-            holds: vec![hold_along(drive, &layout, 0)],
+            holds: vec![hold_along(drive, &layout, [0; 2])],
             element_start: starts.iter().map(|s| s * mounting.length).collect(),
             layout,
             mounting,
@@ -411,12 +451,12 @@ fn points_of(contact: &Contact, count: usize) -> Rule {
     }
 }
 
-/// Holds the vector from coordinate `first` on along the path at the first node, by the axial stiffness of an
-/// element: what is left to hold, the difference that the mesh makes, moves it by next to nothing.
-fn hold_along(drive: &Drive, layout: &Layout, first: usize) -> Hold {
+/// Holds the mean of the vectors that begin at these coordinates along the path at the first node, by the axial stiffness
+/// of an element: what is left to hold, the difference that the mesh makes, moves it by next to nothing.
+fn hold_along(drive: &Drive, layout: &Layout, vectors: [usize; 2]) -> Hold {
     let [x, y] = layout.point(drive.belt.first_node).tangent;
     Hold {
-        first,
+        vectors,
         direction: [x, y, 0.0],
         stiffness: hold_stiffness(drive, layout),
     }
@@ -541,6 +581,27 @@ pub fn coarse_mesh(drive: &Drive, mounting: &Mounting) -> Option<Warning> {
     })
 }
 
+/// Warns of pulleys on whose arcs less than one of equal elements lies.
+pub fn short_arcs(drive: &Drive, layout: &Layout, mounting: &Mounting) -> Vec<Warning> {
+    let element = mounting.path / drive.belt.elements as f64;
+    let short = layout.arcs.iter().filter(|arc| arc.length < element);
+    short
+        .map(|arc| Warning::ShortArc {
+            pulley: drive.pulley[arc.pulley].name.clone(),
+            arc: arc.length,
+            element,
+            elements: whole(mounting.path / arc.length),
+        })
+        .collect()
+}
+
+/// What there is to say of equal elements.
+pub fn coarse_elements(drive: &Drive, layout: &Layout, mounting: &Mounting) -> Vec<Warning> {
+    let mut warnings = short_arcs(drive, layout, mounting);
+    warnings.extend(coarse_mesh(drive, mounting));
+    warnings
+}
+
 /// Refuses elements so long that they cannot make a loop around the smallest pulley.
 pub fn closable(drive: &Drive, mounting: &Mounting) -> Result<(), AssemblyError> {
     match largest_turn(drive, mounting) {
@@ -570,11 +631,16 @@ fn allowed_turn(drive: &Drive) -> f64 {
 fn largest_turn<'a>(drive: &'a Drive, mounting: &Mounting) -> Option<(&'a Pulley, f64, usize)> {
     let smallest = (drive.pulley.iter()).min_by(|a, b| a.radius.total_cmp(&b.radius))?;
     let turn = mounting.path / drive.belt.elements as f64 / smallest.radius;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a positive count of elements"
-    )]
-    let elements = (mounting.path / (smallest.radius * allowed_turn(drive))).ceil() as usize;
+    let elements = whole(mounting.path / (smallest.radius * allowed_turn(drive)));
     Some((smallest, turn, elements))
+}
+
+/// The least whole number of elements that is no less than `number`.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a positive count of elements"
+)]
+fn whole(number: f64) -> usize {
+    number.ceil() as usize
 }

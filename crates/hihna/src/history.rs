@@ -187,6 +187,28 @@ impl History {
         (count > 0).then(|| sum / count as f64)
     }
 
+    /// Mean in time over `[from, to]` of what `of` makes of a row, linear between the rows; at one time the last row until then.
+    #[must_use]
+    pub fn average(&self, from: f64, to: f64, of: impl Fn(&[f64]) -> f64) -> Option<f64> {
+        let mut rows = self.rows().map(|row| (row[0], of(row)));
+        let mut before = rows.next()?;
+        let (mut integral, mut duration) = (0.0, 0.0);
+        for after in rows {
+            let (start, end) = (before.0.max(from), after.0.min(to));
+            if start < end {
+                let slope = (after.1 - before.1) / (after.0 - before.0);
+                let middle = 0.5 * (start + end);
+                integral += (end - start) * (before.1 + slope * (middle - before.0));
+                duration += end - start;
+            }
+            before = after;
+        }
+        if duration > 0.0 {
+            return Some(integral / duration);
+        }
+        self.rows().rfind(|row| row[0] <= to).map(of)
+    }
+
     /// Standard deviation of column `name` over times in `[from, to]`, by the rows.
     #[must_use]
     pub fn deviation(&self, name: &str, from: f64, to: f64) -> Option<f64> {
@@ -199,20 +221,6 @@ impl History {
                 (sum + (row[index] - mean).powi(2), n + 1)
             });
         (count > 0).then(|| (sum / count as f64).sqrt())
-    }
-
-    /// Mean of the product of two columns over times in `[from, to]`, by the rows.
-    #[must_use]
-    pub fn mean_product(&self, a: &str, b: &str, from: f64, to: f64) -> Option<f64> {
-        let a = self.columns.iter().position(|c| c == a)?;
-        let b = self.columns.iter().position(|c| c == b)?;
-        let (sum, count) = self
-            .rows()
-            .filter(|row| row[0] >= from && row[0] <= to)
-            .fold((0.0, 0_usize), |(sum, n), row| {
-                (sum + row[a] * row[b], n + 1)
-            });
-        (count > 0).then(|| sum / count as f64)
     }
 
     /// Mean rate of change of column `name` over times in `[from, to]`, from the row before the

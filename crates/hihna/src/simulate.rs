@@ -17,7 +17,8 @@ use ancf::system::Mechanics;
 use thiserror::Error;
 
 use crate::assemble::{
-    Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, SpaceBeamAssembly, Warning,
+    Assembly, AssemblyError, BeltElementType, Mounting, PlateAssembly, Rest, SpaceBeamAssembly,
+    Warning,
 };
 use crate::contact::surface::SurfaceContact;
 use crate::drive::{BeltElement, Drive, Joint, Start, Until};
@@ -31,6 +32,7 @@ use place::place;
 use recorder::Recorder;
 pub use settling::Settling;
 use settling::Watch;
+pub(crate) use settling::last_kink;
 pub use steady_start::NoSteadyStart;
 
 /// Correction, in smallest radii, at which the belt is at rest.
@@ -104,6 +106,16 @@ pub struct StartState {
     pub iterations: usize,
 }
 
+impl StartState {
+    /// How the belt rests.
+    pub(crate) fn rest(&self) -> Rest {
+        Rest {
+            tension: self.tension,
+            penetration: self.penetration,
+        }
+    }
+}
+
 /// The balance of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Audit {
@@ -128,8 +140,8 @@ impl Audit {
     }
 }
 
-/// Hours to days of computing.
-const MOST_STEPS: f64 = 1.0e9;
+/// Most steps of a run: hours to days of computing.
+pub(crate) const MOST_STEPS: f64 = 1.0e9;
 
 /// A run that failed.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -335,6 +347,7 @@ fn run<E: Element, L: PulleyLaw<E>>(
 
     let mut recorder = Recorder::new(drive, &assembly);
     let start = recorder.start(drive, &assembly, settled);
+    assembly.judge(drive, start.rest());
     tracing::info!(
         iterations = start.iterations,
         tension = start.tension,

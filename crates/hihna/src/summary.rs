@@ -1,5 +1,6 @@
 //! The summary of a run (`summary.json`).
 
+mod averaged;
 mod warnings;
 
 use serde::{Serialize, Serializer};
@@ -11,8 +12,7 @@ use crate::layout::Arc;
 use crate::simulate::Outcome;
 use crate::user_laws::FRICTION;
 
-/// Part of the run, at its end, over which steady means are taken.
-const STEADY_PART: f64 = 0.1;
+pub use averaged::Averaged;
 
 /// Values by name, in order.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,8 +40,10 @@ pub struct Summary {
     /// Of a run until its means settle: whether they have.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settling: Option<SettlingSummary>,
-    /// Means over the last tenth of the run, or over the two windows in which they have settled.
+    /// Means over the times `averaged`.
     pub steady: Report,
+    /// The last tenth of the run, whole periods of an irregularity, or the two windows in which the means have settled.
+    pub averaged: Averaged,
     /// Standard deviations over the same time: how steady the means are.
     pub scatter: Scatter,
     /// The balances.
@@ -112,9 +114,10 @@ pub struct Report {
     pub pulley: Named<PulleyReport>,
     /// By span, named `from-to`.
     pub span: Named<SpanReport>,
-    /// Power put in by drivers [W].
+    /// Power put in [W]: by the torques that act with the motion of their pulleys, drivers or not, and by what moves hubs against
+    /// the belt.
     pub power_in: f64,
-    /// Power taken out by loads [W].
+    /// Power taken out [W]: by the torques against the motion, and where hubs give way to the belt.
     pub power_out: f64,
     /// Power lost to friction and damping [W].
     pub power_lost: f64,
@@ -260,13 +263,11 @@ impl Summary {
         let end = outcome.end_time;
         let statistics = outcome.statistics;
         let last = outcome.history.rows().next_back().map_or(end, |row| row[0]);
-        let (from, to) = match &outcome.settling {
-            Some(settling) if settling.reached => (settling.from, settling.to),
-            _ => ((1.0 - STEADY_PART) * end, end),
-        };
+        let averaged = Averaged::new(drive, outcome);
+        let Averaged { from, to, .. } = averaged;
         let steady = report(drive, outcome, from, to);
         let mut warnings: Vec<_> = outcome.warnings.iter().map(ToString::to_string).collect();
-        warnings.extend(warnings::of_running(&steady));
+        warnings.extend(warnings::of_running(drive, &steady));
         warnings.extend(warnings::of_crowns(drive, &steady));
         warnings.extend(outcome.settling.as_ref().and_then(warnings::of_settling));
         Self {
@@ -308,6 +309,7 @@ impl Summary {
                 tolerance: settling.tolerance,
             }),
             steady,
+            averaged,
             scatter: scatter(drive, &outcome.history, from, to),
             audit: Audit {
                 energy_input: outcome.audit.energy_input,
@@ -330,7 +332,12 @@ fn surface(arc: &Arc) -> f64 {
 /// Means over the rows with times in `[from, to]`; a single row if both are its time.
 fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
     let history = &outcome.history;
-    let mean = |name: &str| history.mean(name, from, to).unwrap_or(f64::NAN);
+    let mean = |name: &str| {
+        let column = history.columns().iter().position(|column| column == name);
+        column
+            .and_then(|column| history.average(from, to, |row| row[column]))
+            .unwrap_or(f64::NAN)
+    };
     let names: Vec<&str> = drive.pulley.iter().map(|p| p.name.as_str()).collect();
     let reference = drive
         .pulley
@@ -386,22 +393,7 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
             (name, report)
         })
         .collect();
-    let (mut power_in, mut power_out) = (0.0, 0.0);
-    for p in &drive.pulley {
-        let power = history
-            .mean_product(
-                &format!("{}.external_torque", p.name),
-                &format!("{}.speed", p.name),
-                from,
-                to,
-            )
-            .unwrap_or(f64::NAN);
-        if p.is_driver() {
-            power_in += power;
-        } else {
-            power_out -= power;
-        }
-    }
+    let powers = || powers_from_outside(drive, history, from, to);
     let lost = ["friction_loss", "contact_loss", "damping_loss"]
         .iter()
         .map(|name| {
@@ -414,10 +406,40 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
         time: 0.5 * (from + to),
         pulley: Named(pulley),
         span: Named(span),
-        power_in,
-        power_out,
+        power_in: powers().map(|power| power.max(0.0)).sum(),
+        power_out: powers().map(|power| (-power).max(0.0)).sum(),
         power_lost: lost,
     }
+}
+
+/// Mean powers [W] over times in `[from, to]` by what acts from outside: on every pulley the external torque, and whoever moves
+/// its hub and holds it against the belt.
+fn powers_from_outside(
+    drive: &Drive,
+    history: &History,
+    from: f64,
+    to: f64,
+) -> impl Iterator<Item = f64> {
+    let column = |name: String| history.columns().iter().position(|column| *column == name);
+    drive.pulley.iter().flat_map(move |pulley| {
+        let of = |what: &str| column(format!("{}.{what}", pulley.name));
+        let [torque, speed] = ["external_torque", "speed"].map(of);
+        let turning = (torque.zip(speed))
+            .and_then(|(torque, speed)| history.average(from, to, |row| row[torque] * row[speed]));
+        let forces = ["hub_force_x", "hub_force_y", "hub_force_z"].map(of);
+        let moving = pulley.displacement.as_ref().and_then(|hub| {
+            history.average(from, to, |row| {
+                let [_, velocity] = hub.at(row[0]);
+                let force = forces.map(|force| force.map_or(0.0, |force| row[force]));
+                -(force.iter().zip(velocity))
+                    .map(|(f, v)| f * v)
+                    .sum::<f64>()
+            })
+        });
+        [Some(turning.unwrap_or(f64::NAN)), moving]
+            .into_iter()
+            .flatten()
+    })
 }
 
 /// Standard deviations over the rows with times in `[from, to]`.

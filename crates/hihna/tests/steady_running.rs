@@ -445,6 +445,32 @@ fn signs_of_losses_and_powers() {
     assert!(pushed.efficiency.expect("power flows") < 1.0);
 }
 
+/// A drive without a load puts in next to nothing: what its balance is relative to is said, in the text and in the warning, and so is
+/// that of a drive that does.
+#[test]
+fn a_residual_says_what_it_is_relative_to() {
+    let told = |changes: &[&str]| {
+        let summary = RunningSummary::new(&drive(BASE, changes), &outcome(BASE, changes));
+        let audit = summary.audit.expect("it runs");
+        let put_in = summary.steady.expect("it runs").power_in;
+        (audit, audit.in_words(put_in), summary.warnings.join("\n"))
+    };
+    let (audit, words, warnings) = told(&["belt.elements=20", "steady.mesh=uniform"]);
+    assert!(
+        words.contains("1 % of tension at rest times belt speed"),
+        "{words}"
+    );
+    // 28.19 N at 12 rad/s on 81.25 mm are 27.5 W on rigid pulleys.
+    assert!((audit.power_scale - 0.275).abs() < 0.002, "{audit:?}");
+    assert_eq!(
+        audit.passed,
+        !warnings.contains("1 % of tension at rest"),
+        "{warnings}"
+    );
+    let (_, words, _) = told(&["belt.elements=60", LOAD]);
+    assert!(words.ends_with("of the power put in"), "{words}");
+}
+
 /// A creep without limit of friction loses `T / (v_s R L)` on each pulley beyond the strain of the belt; the other laws
 /// run, too.
 #[test]

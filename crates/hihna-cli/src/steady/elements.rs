@@ -154,12 +154,8 @@ fn in_words(summary: &RunningSummary, folder: Option<&str>) -> String {
             let _ = writeln!(text, "{}\n", words::capitalised(&summary.message));
         }
     }
-    if let Some(audit) = &summary.audit {
-        let _ = writeln!(
-            text,
-            "Power residual: {:.1e} of the power put in",
-            audit.power_residual
-        );
+    if let Some((audit, steady)) = summary.audit.as_ref().zip(summary.steady.as_ref()) {
+        let _ = writeln!(text, "Power residual: {}", audit.in_words(steady.power_in));
     }
     if let Some(capacity) = &summary.capacity {
         text.push_str(&words::capacity_in_words(capacity));

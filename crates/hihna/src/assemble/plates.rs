@@ -7,8 +7,8 @@ use ancf::statics::Hold;
 use ancf::system::System;
 
 use super::{
-    Assembly, AssemblyError, Mounting, closable, coarse_mesh, hold_along, hold_stiffness, material,
-    penalty, rotor, rule,
+    Assembly, AssemblyError, Mounting, closable, coarse_elements, hold_along, hold_stiffness,
+    material, penalty, rotor, rule,
 };
 use crate::contact::surface::{SurfaceContact, SurfacePulley};
 use crate::drive::{Belt, Drive, PlateBending, Pulley};
@@ -20,9 +20,10 @@ use crate::profile::Profile;
 pub type PlateAssembly = Assembly<ThinPlate, SurfaceContact>;
 
 impl PlateAssembly {
-    /// Puts `drive` together. While the belt settles, the first section's node nearest to the middle is held along
-    /// the path. On pulleys that are not cylinders about z in the plane of the drive, all these nodes are held
-    /// in their plane, too: without friction such a belt would slip off.
+    /// Puts `drive` together. While the belt settles, the first section is held along the path by the node in its middle, or
+    /// by the mean of the two beside it. On pulleys that are not cylinders about z in the plane of the drive, all sections
+    /// are held in the plane of their middles so, too: without friction such a belt would slip off. Their width contracts
+    /// freely, alike to both sides.
     pub fn of_plates(drive: &Drive) -> Result<Self, AssemblyError> {
         let layout = Layout::of(drive)?;
         let mounting = Mounting::new(drive, &layout)?;
@@ -35,13 +36,14 @@ impl PlateAssembly {
             contact.center = pulley.middle(0.0);
             contact.displacement = None;
         }
-        let middle = drive.belt.elements_across / 2 * ThinPlate::NODE_DOF;
+        let across = drive.belt.elements_across;
+        let middle = [across / 2, across.div_ceil(2)].map(|node| node * ThinPlate::NODE_DOF);
         let mut holds = vec![hold_along(drive, &layout, middle)];
         if drive.pulley.iter().any(Pulley::is_misaligned) {
             let row = system.mesh().section_dof();
             let stiffness = hold_stiffness(drive, &layout);
             holds.extend((0..count).map(|section| Hold {
-                first: section * row + middle,
+                vectors: middle.map(|node| section * row + node),
                 direction: [0.0, 0.0, 1.0],
                 stiffness,
             }));
@@ -49,7 +51,7 @@ impl PlateAssembly {
         Ok(Self {
             motion: on_path(drive, &layout, &mounting, contraction),
             system,
-            warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
+            warnings: coarse_elements(drive, &layout, &mounting),
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),

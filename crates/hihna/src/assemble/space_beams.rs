@@ -10,8 +10,8 @@ use ancf::system::System;
 
 use super::plates::surface_pulley;
 use super::{
-    Assembly, AssemblyError, Mounting, closable, coarse_mesh, hold_along, hold_stiffness, material,
-    penalty, points_of, rotor, rule,
+    Assembly, AssemblyError, Mounting, closable, coarse_elements, hold_along, hold_stiffness,
+    material, penalty, points_of, rotor, rule,
 };
 use crate::contact::surface::{Face, Groove, SurfaceContact, SurfacePulley};
 use crate::drive::{Belt, Drive, Pulley};
@@ -74,11 +74,11 @@ impl<E: SpaceBeltElement> SpaceBeamAssembly<E> {
             contact.center = pulley.middle(0.0);
             contact.displacement = None;
         }
-        let mut holds = vec![hold_along(drive, &layout, 0)];
+        let mut holds = vec![hold_along(drive, &layout, [0; 2])];
         if drive.pulley.iter().any(Pulley::is_misaligned) && !is_guided(drive) {
             let stiffness = hold_stiffness(drive, &layout);
             holds.extend((0..count).map(|node| Hold {
-                first: node * E::NODE_DOF,
+                vectors: [node * E::NODE_DOF; 2],
                 direction: [0.0, 0.0, 1.0],
                 stiffness,
             }));
@@ -87,7 +87,7 @@ impl<E: SpaceBeltElement> SpaceBeamAssembly<E> {
             system,
             motion: on_path::<E>(drive, &layout, &mounting),
             holds,
-            warnings: coarse_mesh(drive, &mounting).into_iter().collect(),
+            warnings: coarse_elements(drive, &layout, &mounting),
             layout,
             mounting,
             element_start: (0..count).map(|i| i as f64 * length).collect(),

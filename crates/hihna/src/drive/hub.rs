@@ -43,7 +43,7 @@ impl Displacement {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Crown {
-    /// Height over the edges [m]; negative for a hollow pulley.
+    /// Height over the edges [m]; negative for a hollow pulley, which a belt runs off.
     #[schemars(schema_with = "units::length")]
     pub height: f64,
     /// Width of the pulley [m].

@@ -90,8 +90,8 @@ pub struct Harmonic {
     /// Periods per revolution [-]: 2 for a four-cylinder four-stroke engine.
     #[schemars(schema_with = "units::ratio", extend("exclusiveMinimum" = 0.0))]
     pub order: f64,
-    /// Amplitude relative to the mean speed [-].
-    #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0))]
+    /// Amplitude relative to the mean speed [-]; from 1 on the pulley would turn back within a revolution.
+    #[schemars(schema_with = "units::ratio", extend("minimum" = 0.0, "exclusiveMaximum" = 1.0))]
     pub amplitude: f64,
     /// Phase at angle zero [rad].
     #[serde(default)]

@@ -8,6 +8,7 @@ use crate::input::spatial;
 use crate::layout::{Layout, LayoutError};
 use crate::load::Load;
 use crate::profile::{Profile, Varying};
+use crate::simulate::MOST_STEPS;
 
 /// More rows than this fill a disk before they tell anything.
 const MOST_ROWS: f64 = 1e7;
@@ -514,15 +515,32 @@ fn run(run: &Run, problems: &mut Vec<Problem>) {
             .help("make the interval longer, or let the frames start later by `run.frame_start`"),
         );
     }
-    for (i, &time) in run.profile_times.iter().enumerate() {
-        if !(0.0..=end).contains(&time) {
-            problems.push(
-                Problem::new(
-                    path.field("profile_times").item(i, None),
-                    format!("the profile time {time} s is outside the run"),
-                )
+    if let Step::Fixed(step) = run.step
+        && end / step > MOST_STEPS
+    {
+        problems.push(
+            Problem::new(
+                path.field("step"),
+                format!("the run would take {:.1e} steps of {step:e} s", end / step),
+            )
+            .expected(format!("\"auto\", or at least {:.1e} s", end / MOST_STEPS)),
+        );
+    }
+    let mut outside =
+        (run.profile_times.iter().enumerate()).filter(|(_, time)| !(0.0..=end).contains(*time));
+    if let Some((first, time)) = outside.next() {
+        let others = outside.count();
+        let told = if others == 0 {
+            format!("the profile time {time} s is outside the run")
+        } else {
+            format!(
+                "{} profile times are outside the run, the first of them {time} s",
+                others + 1
+            )
+        };
+        problems.push(
+            Problem::new(path.field("profile_times").item(first, None), told)
                 .expected(format!("times from 0 s to the end time, {end} s")),
-            );
-        }
+        );
     }
 }

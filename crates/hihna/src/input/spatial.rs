@@ -241,6 +241,11 @@ fn pulley_in_the_plane(pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Pro
 
 fn pulley_in_space(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &mut Vec<Problem>) {
     groove(drive, pulley, path, problems);
+    if let Some(beside) = beside(drive, pulley, path) {
+        // What else is wrong with its surface follows from that.
+        problems.push(beside);
+        return;
+    }
     let [slope, curvature] = pulley.shape();
     let half = 0.5 * drive.belt.width + pulley.offset.abs();
     let least = pulley.radius - slope.abs() * half - 0.5 * curvature.max(0.0) * half * half;
@@ -278,6 +283,32 @@ fn pulley_in_space(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &
             .help("friction around the pulley alone is for pulleys in line"),
         );
     }
+}
+
+/// A belt that no groove guides starts in the plane z = 0: its middle must lie on every pulley. One of unstated width is as wide as the
+/// belt, the narrowest that carries it.
+fn beside(drive: &Drive, pulley: &Pulley, path: &FieldPath) -> Option<Problem> {
+    let half = 0.5 * pulley.crown.map_or(drive.belt.width, |crown| crown.width);
+    if is_guided(drive) || pulley.offset.abs() <= half {
+        return None;
+    }
+    let pulley_width = if pulley.crown.is_some() {
+        "the pulley's, by its crown"
+    } else {
+        "the belt's, as no crown says how wide the pulley is"
+    };
+    Some(
+        Problem::new(
+            path.field("offset"),
+            format!(
+                "the middle of `{path}` is {} m beside the plane z = 0, where the belt starts and reaches {} m to each side",
+                pulley.offset.abs(),
+                0.5 * drive.belt.width
+            ),
+        )
+        .expected(format!("at most {half} m, half of the width: {pulley_width}"))
+        .help("offsets count from the belt: take what all pulleys have in common off them"),
+    )
 }
 
 /// Steepest wall of a groove that guides a belt: at less than ten degrees between the flanks a micrometre of belt is a

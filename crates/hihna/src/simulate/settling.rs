@@ -212,7 +212,7 @@ fn left_to_come(before: f64, last: f64) -> f64 {
 }
 
 /// When the profiles of `drive` have come to their last values [s].
-fn last_kink(drive: &Drive) -> f64 {
+pub(crate) fn last_kink(drive: &Drive) -> f64 {
     let hubs = (drive.pulley.iter())
         .filter_map(|pulley| pulley.displacement.as_ref())
         .flat_map(|hub| [&hub.x, &hub.y, &hub.z]);

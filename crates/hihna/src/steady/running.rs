@@ -193,9 +193,10 @@ pub struct Running {
     pub spans: Vec<SpanState>,
     /// Powers.
     pub powers: Powers,
-    /// Power that is neither put in nor taken out nor lost, relative to the power put in [-]: what the
-    /// elements do not resolve.
+    /// Power that is neither put in nor taken out nor lost, relative to `power_scale` [-]: what the elements do not resolve.
     pub power_residual: f64,
+    /// The power put in [W], or a hundredth of tension at rest times speed of the belt, if that is more.
+    pub power_scale: f64,
     /// The belt point by point.
     pub profile: Vec<ProfileRow>,
     /// Newton iterations of the last solution.
@@ -456,13 +457,15 @@ impl<E: BeltElementType> RunningBelt<E> {
             .map(|p| (p.external_torque * p.speed).max(0.0))
             .sum();
         let idle = LEAST_POWER * self.assembly.mounting.tension * circulation.abs();
+        let power_scale = put_in.max(idle);
         let left = powers.input + powers.load - powers.friction - powers.contact;
         Running {
             circulation,
             pulleys: states,
             spans,
             powers,
-            power_residual: left / put_in.max(idle),
+            power_residual: left / power_scale,
+            power_scale,
             profile: self.observer.profile(0.0, &self.assembly.element_start),
             iterations: 0,
             factorizations: 0,

@@ -2,14 +2,16 @@
 
 use super::Report;
 use crate::drive::Drive;
+use crate::quantities::with_prefix;
 use crate::simulate::Settling;
 
 /// Part of the wrap that touches where a belt is said to have lifted off, and of the contact that slips where
 /// a belt is said to slip.
 const HALF: f64 = 0.5;
 
-/// Pulleys that the belt has left or slips on as a whole.
-pub(super) fn of_running(steady: &Report) -> Vec<String> {
+/// Pulleys that the belt has left or slips on as a whole, drivers or not: there it is slower or faster than the surface by more than
+/// stretching makes it.
+pub(super) fn of_running(drive: &Drive, steady: &Report) -> Vec<String> {
     let mut warnings = Vec::new();
     // What a belt loses by its stretch alone is less than its greatest strain.
     let stretch = steady
@@ -17,7 +19,11 @@ pub(super) fn of_running(steady: &Report) -> Vec<String> {
         .0
         .iter()
         .fold(0.0, |most, (_, span)| f64::max(most, span.strain));
-    for (name, report) in &steady.pulley.0 {
+    let belt = (steady.span.0.iter()).map(|(_, span)| span.speed.abs());
+    for (pulley, (name, report)) in drive.pulley.iter().zip(&steady.pulley.0) {
+        // The faster of belt and surface: one of them may stand still.
+        let surface = report.speed.abs() * pulley.radius;
+        let fastest = belt.clone().fold(surface, f64::max);
         let (contact, wrap) = (report.contact_angle, report.wrap_angle);
         if contact < HALF * wrap {
             warnings.push(format!(
@@ -26,11 +32,11 @@ pub(super) fn of_running(steady: &Report) -> Vec<String> {
                 wrap.to_degrees()
             ));
         }
-        let loss = report.speed_loss;
-        if report.slip_angle > HALF * contact && loss.abs() > stretch {
+        if report.slip_angle > HALF * contact && report.slip_speed.abs() > stretch * fastest {
             warnings.push(format!(
-                "the belt slips on pulley `{name}`: {:.1} % of its speed, more than it stretches; the torque is more than friction carries",
-                100.0 * loss
+                "the belt slips on pulley `{name}`: their speeds differ by {:.1} %, more than the belt stretches; friction carries no more than {} there",
+                100.0 * report.slip_speed.abs() / fastest,
+                with_prefix(report.torque.abs(), "N m")
             ));
         }
     }

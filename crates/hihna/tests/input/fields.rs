@@ -414,6 +414,13 @@ fn out_of_range() {
             "run.step",
             "must be positive",
         ),
+        // Three per cent was meant.
+        (
+            "name = \"driver\"",
+            "irregularity = [{ order = 2, amplitude = 3 }]\nname = \"driver\"",
+            "pulley.driver.irregularity.0.amplitude",
+            "must be less than 1, but is 3",
+        ),
     ];
     for (old, new, field, part) in cases {
         let text = with(old, new);

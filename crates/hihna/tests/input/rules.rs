@@ -230,6 +230,24 @@ fn run_times() {
         "run.profile_times.1",
         &["9 s is outside", "1.5 s"],
     );
+    // Once for all that a short run leaves outside.
+    let many = run("profile_times = [0.5, 2.0, 3.0, 4.0]");
+    fails(
+        &many,
+        "profile_times",
+        "run.profile_times.1",
+        &["3 profile times are outside", "the first of them 2 s"],
+    );
+    let errors = input::parse("bad.toml", &many, &[])
+        .unwrap_err()
+        .to_string();
+    assert_eq!(errors.matches("outside").count(), 1, "{errors}");
+    fails(
+        &run("step = 1e-15"),
+        "step = 1e-15",
+        "run.step",
+        &["1.5e15 steps", "at least 1.5e-9 s"],
+    );
     fails(
         &run("step = 2.0"),
         "step = 2.0",

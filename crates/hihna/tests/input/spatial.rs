@@ -161,6 +161,43 @@ fn misaligned_pulleys_need_friction_along_their_axes() {
     );
 }
 
+/// The belt starts at z = 0, 40 mm to each side: its middle must be on every pulley, as wide as its crown says or as the belt. Half a
+/// metre beside it the drive would run all the same, as surfaces have no end.
+#[test]
+fn pulleys_beside_the_belt_are_refused() {
+    let both = plate("points = 9", "friction_directions = \"both\"\npoints = 9");
+    let beside =
+        |lines: &str| both.replacen("inertia = 0.25", &format!("{lines}\ninertia = 0.25"), 1);
+    let parts = [
+        "0.5 m beside the plane z = 0",
+        "0.04 m to each side",
+        "at most 0.04 m",
+        "have in common",
+    ];
+    fails(
+        &beside("offset = 0.5"),
+        "offset = 0.5",
+        "pulley.driven.offset",
+        &parts,
+    );
+    let crown = "crown = { height = 0.0005, width = 0.03 }";
+    fails(
+        &beside(&format!("offset = -0.02\n{crown}")),
+        "offset = -0.02",
+        "pulley.driven.offset",
+        &["0.02 m beside", "at most 0.015 m", "crown"],
+    );
+    for fits in [
+        "offset = -0.04".to_owned(),
+        format!("offset = 0.01\n{crown}"),
+    ] {
+        assert!(
+            input::parse("good.toml", &beside(&fits), &[]).is_ok(),
+            "{fits}"
+        );
+    }
+}
+
 #[test]
 fn displacements_start_at_zero() {
     fails(

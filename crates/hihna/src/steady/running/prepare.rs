@@ -17,9 +17,11 @@ use super::equations::{Equations, Phase};
 use super::line::{ContactLine, MOST_DOF};
 use super::newton::Newton;
 use super::{RunningBelt, RunningError, mesh};
-use crate::assemble::{Assembly, AssemblyError, BeltElementType, Warning, coarse_mesh, penalty};
+use crate::assemble::{
+    Assembly, AssemblyError, BeltElementType, Warning, coarse_mesh, penalty, short_arcs,
+};
 use crate::contact::ContactPulley;
-use crate::drive::{Drive, Friction, Integration, Pulley};
+use crate::drive::{Drive, Friction, Integration, Pulley, SteadyMesh};
 use crate::friction::Law;
 use crate::layout::Layout;
 use crate::load::ExternalTorque;
@@ -58,6 +60,10 @@ impl<E: BeltElementType> RunningBelt<E> {
         assembly
             .warnings
             .extend(coarse_mesh(drive, &assembly.mounting));
+        if drive.steady.mesh == SteadyMesh::Uniform {
+            let short = short_arcs(drive, &assembly.layout, &assembly.mounting);
+            assembly.warnings.extend(short);
+        }
         if drive.contact.integration == Integration::Trapezoidal {
             assembly.warnings.push(Warning::SplitIntegration);
         }
@@ -116,6 +122,7 @@ impl<E: BeltElementType> RunningBelt<E> {
         self.guess = guess;
         self.start.tension = self.observer.mean_tension();
         self.start.penetration = self.observer.penetration();
+        self.assembly.judge(drive, self.start.rest());
         Ok(())
     }
 

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::{Answer, Capacity, Found, Most, Outcome, POWER_TOLERANCE, Running};
+use super::{Answer, Capacity, Found, LEAST_POWER, Most, Outcome, POWER_TOLERANCE, Running};
 use crate::drive::{BeltElement, Drive, SlipAt, SteadyMesh};
 use crate::layout::Arc;
+use crate::quantities::with_prefix;
 use crate::summary::{Named, PulleyReport, SpanReport, Start};
 
 /// All of `summary.json`; SI units, angles in radians.
@@ -139,12 +140,30 @@ pub struct SlackSummary {
 /// The balance of powers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Audit {
-    /// Power neither put in nor taken out nor lost, relative to the power put in [-].
+    /// Power neither put in nor taken out nor lost, relative to `power_scale` [-].
     pub power_residual: f64,
+    /// The power put in [W], or a hundredth of tension at rest times speed of the belt, if that is more.
+    pub power_scale: f64,
     /// Largest magnitude that passes.
     pub tolerance: f64,
     /// Whether it does.
     pub passed: bool,
+}
+
+impl Audit {
+    /// The residual of a drive with the power `put_in` [W], in words.
+    pub fn in_words(&self, put_in: f64) -> String {
+        let residual = self.power_residual;
+        if put_in < self.power_scale {
+            format!(
+                "{residual:.1e} of {} ({:.0} % of tension at rest times belt speed, as hardly any power is put in)",
+                with_prefix(self.power_scale, "W"),
+                100.0 * LEAST_POWER
+            )
+        } else {
+            format!("{residual:.1e} of the power put in")
+        }
+    }
 }
 
 impl RunningSummary {
@@ -236,23 +255,25 @@ impl RunningSummary {
             iterations: running.iterations,
             factorizations: running.factorizations,
         });
-        self.steady = Some(steady(drive, outcome, running));
+        let steady = steady(drive, outcome, running);
         let audit = Audit {
             power_residual: running.power_residual,
+            power_scale: running.power_scale,
             tolerance: POWER_TOLERANCE,
             passed: running.power_residual.abs() <= POWER_TOLERANCE,
         };
         if !audit.passed {
             self.warnings.push(format!(
-                "the powers do not balance: {:.1e} of the power put in is left, more than {POWER_TOLERANCE:.0e}; use more `belt.elements`",
-                running.power_residual
+                "the powers do not balance: what is left is {}, more than {POWER_TOLERANCE:.0e}; use more `belt.elements`",
+                audit.in_words(steady.power_in)
             ));
         }
+        self.steady = Some(steady);
         self.audit = Some(audit);
         let powers = &running.powers;
         let lost = powers.friction + powers.contact;
         // Less than the residual may be the mesh's.
-        let missed = running.power_residual.abs() * powers.input.abs();
+        let missed = running.power_residual.abs() * running.power_scale;
         if drive.contact.slip_at == SlipAt::Surface && lost < -missed {
             self.warnings.push(format!(
                 "contact wins {:.2e} W: slip is measured at the surface of the pulleys, as published, but friction acts where the belt has sunk in; `contact.slip_at = \"depth\"` measures slip there, too",
