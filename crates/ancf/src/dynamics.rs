@@ -99,9 +99,7 @@ pub trait Scheme {
     ) -> Result<(), NotConverged>;
 
     /// How the last step integrated accelerations.
-    fn rule(&self) -> StepRule<'_> {
-        StepRule::TRAPEZOIDAL
-    }
+    fn rule(&self) -> StepRule<'_>;
 }
 
 /// How a scheme integrates the true accelerations x over a step of length h, its algorithmic ones being a:
@@ -110,19 +108,19 @@ pub trait Scheme {
 /// v1 - v0 = h (w0 x0 + w1 x_middle + w2 x1) + lag h [(x1 - a1) - (x0 - a0)]
 /// ```
 ///
-/// exactly, so that sums of works and impulses by the same rule have no error of their own.
+/// exactly for the implicit schemes, so that sums of works and impulses by the same rule have no error of their own.
 #[derive(Clone, Copy, Debug)]
 pub struct StepRule<'a> {
     /// The weights of start, middle and end.
     pub weights: [f64; 3],
     /// The state between the ends at which the equations of motion were solved, if any was.
     pub middle: Option<&'a Motion>,
-    /// Part of a step by which the algorithmic acceleration lags.
+    /// `1/2 - af` of generalized-alpha; zero where there is but one acceleration.
     pub lag: f64,
 }
 
 impl StepRule<'_> {
-    /// The mean of both ends.
+    /// The mean of both ends: that of generalized-alpha but for its lag, and a second-order sum for any scheme.
     pub const TRAPEZOIDAL: Self = Self {
         weights: [0.5, 0.0, 0.5],
         middle: None,

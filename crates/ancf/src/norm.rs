@@ -129,3 +129,47 @@ impl Sizes {
             .fold(0.0, |largest: f64, x| largest.max(*x))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Vectors of 2, 3 and 1 components, in numbers that do and do not fill eight lanes: the largest and its place as plain loops find
+    /// them, and nothing that is not finite is lost in a lane.
+    #[test]
+    fn sizes_and_places_are_those_of_plain_loops() {
+        for dimension in [1, 2, 3] {
+            for vectors in [1, 7, 8, 9, 20] {
+                let chain = dimension * vectors;
+                let scales: Vec<f64> = (0..vectors)
+                    .flat_map(|k| vec![1.0 + (k % 3) as f64; dimension])
+                    .chain([0.5, 4.0])
+                    .collect();
+                let norm = VectorNorm {
+                    chain,
+                    dimension,
+                    scales: scales.clone(),
+                };
+                let mut x: Vec<f64> = (0..chain + 2).map(|i| (i as f64 * 1.7).sin()).collect();
+                let length = |x: &[f64], first: usize| {
+                    let count = if first < chain { dimension } else { 1 };
+                    let square: f64 = x[first..first + count].iter().map(|x| x * x).sum();
+                    square.sqrt() * scales[first]
+                };
+                let places = || (0..chain).step_by(dimension).chain([chain, chain + 1]);
+                let place = places()
+                    .max_by(|a, b| length(&x, *a).total_cmp(&length(&x, *b)))
+                    .expect("some");
+                assert!((norm.size(&x) - length(&x, place)).abs() < 1.0e-14);
+                assert_eq!(norm.place(&x), place);
+                for bad in [f64::NAN, f64::INFINITY] {
+                    for i in 0..x.len() {
+                        let good = std::mem::replace(&mut x[i], bad);
+                        assert!(norm.size(&x).is_infinite(), "{dimension}, {vectors}, {i}");
+                        x[i] = good;
+                    }
+                }
+            }
+        }
+    }
+}

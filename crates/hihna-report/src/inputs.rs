@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use hihna::drive::{
     AutoStep, BeltElement, Drive, Friction, FrictionDirections, Integration, PlateBending, Pulley,
-    Start, Step, Surface, Until, Wrap,
+    SlipAt, Start, Step, Surface, Until, Wrap,
 };
 use hihna::load::Load;
 use hihna::profile::{Profile, Varying};
@@ -159,6 +159,11 @@ fn contact(drive: &Drive) -> Table {
         element if element.is_beam_in_space() => format!(" × {}", contact.points_across),
         _ => String::new(),
     };
+    let slip = match contact.slip_at {
+        SlipAt::Surface => "at the surface of the pulley",
+        SlipAt::Depth => "at the depth of the belt",
+    };
+    row("Slip is measured", slip.to_owned());
     let rule = match contact.integration {
         Integration::Gauss => "Gauss",
         Integration::Trapezoidal => "trapezoidal",

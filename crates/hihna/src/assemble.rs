@@ -430,7 +430,7 @@ pub(crate) fn penalty(contact: &Contact) -> Penalty {
         stiffness: contact.stiffness,
         damping: contact.damping,
         clamp: contact.clamp_normal_force,
-        slip_lever: match contact.slip_at {
+        slip_lever_part: match contact.slip_at {
             SlipAt::Surface => 1.0,
             SlipAt::Depth => 0.0,
         },

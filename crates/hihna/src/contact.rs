@@ -88,7 +88,7 @@ pub struct Penalty {
     pub clamp: bool,
     /// Part of the penetration by which the lever of the pulley's speed in the slip exceeds that of friction, R - d: 1 for slip
     /// against the surface as published, 0 at the depth where friction acts. Walls of grooves have the latter.
-    pub slip_lever: f64,
+    pub slip_lever_part: f64,
 }
 
 /// What the belt does to one pulley, summed over the contact.

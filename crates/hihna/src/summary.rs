@@ -393,7 +393,15 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
             (name, report)
         })
         .collect();
-    let powers = || powers_from_outside(drive, history, from, to);
+    let (mut power_in, mut power_out) = (0.0, 0.0);
+    for power in powers_from_outside(drive, history, from, to) {
+        // Not a number shows.
+        if power < 0.0 {
+            power_out -= power;
+        } else {
+            power_in += power;
+        }
+    }
     let lost = ["friction_loss", "contact_loss", "damping_loss"]
         .iter()
         .map(|name| {
@@ -406,8 +414,8 @@ fn report(drive: &Drive, outcome: &Outcome, from: f64, to: f64) -> Report {
         time: 0.5 * (from + to),
         pulley: Named(pulley),
         span: Named(span),
-        power_in: powers().map(|power| power.max(0.0)).sum(),
-        power_out: powers().map(|power| (-power).max(0.0)).sum(),
+        power_in,
+        power_out,
         power_lost: lost,
     }
 }

@@ -107,7 +107,7 @@ fn contact<E: LineElement>(
             damping: 2.0e5,
             clamp,
             // Both places of slip, one with each.
-            slip_lever: if clamp { 0.0 } else { 1.0 },
+            slip_lever_part: if clamp { 0.0 } else { 1.0 },
         },
         directions,
         Rule::gauss(NonZeroUsize::new(5).expect("five")),

@@ -83,7 +83,7 @@ fn contact(friction: &Law, clamp: bool, height: f64) -> BeltContact {
             damping: 1.0e5,
             clamp,
             // Both places of slip, one with each.
-            slip_lever: if clamp { 0.0 } else { 1.0 },
+            slip_lever_part: if clamp { 0.0 } else { 1.0 },
         },
         Rule::gauss(NonZeroUsize::new(7).expect("seven")),
     );

@@ -3,7 +3,7 @@
 //! The elements of a time run pass the places where the belt runs on and off, those of the direct solution stay: its mean over
 //! four phases of the mesh is what the mean in time is compared with. They are equal within the standard deviation of the time run, or
 //! within what the phase of the mesh changes in the direct solution, half of its range: that decides where the scatter is a millionth
-//! of the speed, as with the gentle slope at 120 rad/s.
+//! of the speed, as with the gentle slope at 120 rad/s. Speeds that are prescribed are equal to rounding.
 
 use hihna::drive::Drive;
 use hihna::layout::Layout;
@@ -45,7 +45,7 @@ fn assert_equal(text: &str, changes: &[&str]) {
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let (off, phase) = ((mean - mean_in_time).abs(), 0.5 * (most - least));
         assert!(
-            off <= scatter.max(phase),
+            off <= scatter.max(phase).max(1.0e-12 * mean.abs()),
             "{changes:?}: {name} off by {off:.1e}, scatter {scatter:.1e}, by phase {phase:.1e}"
         );
     };

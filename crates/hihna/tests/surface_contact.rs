@@ -88,7 +88,7 @@ fn contact(directions: FrictionDirections, clamp: bool) -> SurfaceContact {
             damping: 1.0e6,
             clamp,
             // Both places of slip, one with each.
-            slip_lever: if clamp { 0.0 } else { 1.0 },
+            slip_lever_part: if clamp { 0.0 } else { 1.0 },
         },
         directions,
         Rule::trapezoidal(NonZeroUsize::new(5).expect("five")),

@@ -44,3 +44,33 @@ impl Renewal {
         self.stages = (self.stages + 1) % PERIOD;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How many of `stages` stages begin with a new tangent, if those with the old factor take `old` evaluations and as many tangents, and the
+    /// others `new`.
+    fn renewed(stages: usize, old: (usize, usize), new: (usize, usize)) -> usize {
+        let mut renewal = Renewal::default();
+        let mut renewed = 0;
+        for _ in 0..stages {
+            let due = renewal.is_due();
+            renewed += usize::from(due);
+            let (evaluations, tangents) = if due { new } else { old };
+            renewal.count(due, evaluations, tangents);
+        }
+        renewed
+    }
+
+    /// Old factors where they are cheap, without any try where nothing could be cheaper; new tangents where old factors fail often; the other
+    /// kind in 8 of 256 stages.
+    #[test]
+    fn the_cheaper_kind_is_taken() {
+        assert_eq!(renewed(25_600, (4, 0), (2, 1)), 0);
+        let tried = renewed(25_600, (8, 0), (4, 1));
+        assert!((700..=800).contains(&tried), "{tried}");
+        let tried = 25_600 - renewed(25_600, (8, 1), (3, 1));
+        assert!((700..=900).contains(&tried), "{tried}");
+    }
+}

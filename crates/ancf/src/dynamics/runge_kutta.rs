@@ -2,7 +2,7 @@
 //! dissertation's form, here the cross-check of the implicit path.
 
 use super::stage::{NotConverged, Stage};
-use super::{Motion, Scheme};
+use super::{Motion, Scheme, StepRule};
 use crate::system::Mechanics;
 
 /// The scheme and its stages.
@@ -58,6 +58,11 @@ impl Scheme for RungeKutta4 {
         } else {
             Err(NotConverged::diverged(to.time))
         }
+    }
+
+    /// A sum of second order: steps are far shorter than what is summed changes in.
+    fn rule(&self) -> StepRule<'_> {
+        StepRule::TRAPEZOIDAL
     }
 }
 

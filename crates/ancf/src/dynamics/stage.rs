@@ -190,7 +190,10 @@ impl Stage {
         base: StageBase,
     ) -> Result<(), NotConverged> {
         let before = self.statistics;
-        let renewal = self.renewal.is_due();
+        // A factor for other steps is renewed in any case.
+        let gv = base.velocity_factor;
+        let stale = (gv / self.factored_for - 1.0).abs() > STALE || self.factored_for == 0.0;
+        let renewal = self.renewal.is_due() || stale;
         let result = self.iterate(system, motion, base, renewal);
         self.renewal.count(
             renewal,
@@ -215,8 +218,7 @@ impl Stage {
         let mut fresh = false;
         self.place(system, motion, base);
         self.evaluate(system, motion, Target::Current);
-        let stale = (gv / self.factored_for - 1.0).abs() > STALE || self.factored_for == 0.0;
-        if stale || renewal {
+        if renewal {
             self.renew(system, motion, base)?;
             fresh = true;
         }

@@ -84,7 +84,7 @@ pub fn stability(modes: &[ModeSummary]) -> Option<String> {
     match (swing.as_slice(), leave.as_slice()) {
         ([], []) => None,
         (swing, []) => Some(format!(
-            "{} of these modes grow, the fastest by {}. In this linear picture partial slip makes weak growth that changes with the mesh, so confirm it with more `belt.elements`",
+            "{} of the modes grow, the fastest by {}. In this linear picture partial slip makes weak growth that changes with the mesh, so confirm it with more `belt.elements`",
             swing.len(),
             fastest(swing)
         )),

@@ -71,7 +71,7 @@ impl<S: Scalar> PointContact<S> {
         let penetration = -distance + pulley.radius;
         let rate = -(n[0] * v[0] + n[1] * v[1]);
         let tangential_velocity = n[0] * v[1] - n[1] * v[0];
-        let slip_lever = penetration * (penalty.slip_lever - 1.0) + pulley.radius;
+        let slip_lever = penetration * (penalty.slip_lever_part - 1.0) + pulley.radius;
         let slip = tangential_velocity - slip_lever * speed;
         let zero = S::zero();
         // z = R sin(angle from the anchor to n), dz/d angle = R cos
@@ -115,7 +115,7 @@ impl<S: Scalar> PointContact<S> {
             friction_by_turn: -(touching * developed.by_displacement) * per_angle,
             inverse_distance,
             slip_lever,
-            slip_by_penetration: speed * (1.0 - penalty.slip_lever),
+            slip_by_penetration: speed * (1.0 - penalty.slip_lever_part),
         }
     }
 

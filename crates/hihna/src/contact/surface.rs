@@ -86,7 +86,7 @@ pub struct SurfacePulley {
 impl SurfacePulley {
     /// The surface that the points on one side of the belt's section meet.
     #[inline(always)]
-    fn meridian(&self, side: Side, slip_lever: f64) -> Meridian {
+    fn meridian(&self, side: Side, lever_part: f64) -> Meridian {
         match (side, &self.groove) {
             (Side::Flank(flank), Some(groove)) => groove.wall(self.radius, flank),
             _ => Meridian {
@@ -94,7 +94,7 @@ impl SurfacePulley {
                 slope: self.slope,
                 curvature: self.curvature,
                 unit: 1.0,
-                lever: slip_lever,
+                lever_part,
             },
         }
     }
@@ -331,7 +331,10 @@ impl SurfaceContact {
             v: std::array::from_fn(|k| v[k] - drift[k]),
             speed: state.v[self.chain + p],
         };
-        let surface = (pulley, pulley.meridian(batch.side, self.penalty.slip_lever));
+        let surface = (
+            pulley,
+            pulley.meridian(batch.side, self.penalty.slip_lever_part),
+        );
         let at = SurfacePoint::new(&self.penalty, surface, self.directions, &meeting);
         (at.penetration > 0.0).then(|| SurfaceTouch {
             pulley: p,

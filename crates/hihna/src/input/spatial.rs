@@ -289,7 +289,9 @@ fn pulley_in_space(drive: &Drive, pulley: &Pulley, path: &FieldPath, problems: &
 /// belt, the narrowest that carries it.
 fn beside(drive: &Drive, pulley: &Pulley, path: &FieldPath) -> Option<Problem> {
     let half = 0.5 * pulley.crown.map_or(drive.belt.width, |crown| crown.width);
-    if is_guided(drive) || pulley.offset.abs() <= half {
+    // A width that cannot be is told by itself.
+    let lies_beside = half >= 0.0 && pulley.offset.abs() > half;
+    if is_guided(drive) || !lies_beside {
         return None;
     }
     let pulley_width = if pulley.crown.is_some() {

@@ -90,11 +90,10 @@ mod tests {
             .map(|step| pacing.pace(step as f64, residual(step as f64), 1.0))
             .collect();
         let late = &paces[end * 9 / 10..];
-        if late.contains(&Pace::Finer) {
-            Pace::Finer
-        } else {
-            late[late.len() - 1]
-        }
+        let asked = [Pace::Finer, Pace::Hold]
+            .into_iter()
+            .find(|pace| late.contains(pace));
+        asked.unwrap_or(Pace::Free)
     }
 
     /// A residual that will leave its limit asks for shorter steps, one that would leave it with longer steps for no longer ones; one that

@@ -103,6 +103,11 @@ pub enum RunningError {
     /// A field cannot have this value.
     #[error("{0}")]
     Field(String),
+    /// The state is on the verge of what can be solved.
+    #[error(
+        "the running state is singular: more slip carries no more, or hardly any friction holds the belt"
+    )]
+    Singular,
     /// Derivatives did not converge.
     #[error(
         "the derivatives by `{field}` were not found: the last correction is {left:.0e} m per unit of it"
@@ -131,7 +136,7 @@ pub enum RunningError {
 pub enum Obstacle {
     /// The belt lifts off its pulleys.
     #[error(
-        ": at {speed:.4} m/s the belt needs {centrifugal:.4} N to stay on the pulleys and has {tension:.4} N at rest"
+        ": at {speed:.4} m/s centrifugal forces take {centrifugal:.4} N of what holds the belt on its pulleys, {tension:.4} N at rest"
     )]
     LiftOff {
         /// Speed of the belt [m/s].
@@ -154,7 +159,7 @@ pub enum Obstacle {
     /// Pulleys that are driven at different speeds drag the belt along.
     #[error(": the surfaces of driven pulleys run at {slowest:.6} to {fastest:.6} m/s")]
     Drivers {
-        /// Least surface speed of a driver [m/s].
+        /// Least surface speed of a driver [m/s], in the order of the pulleys.
         slowest: f64,
         /// Largest one [m/s].
         fastest: f64,
@@ -195,7 +200,7 @@ pub struct Running {
     pub powers: Powers,
     /// Power that is neither put in nor taken out nor lost, relative to `power_scale` [-]: what the elements do not resolve.
     pub power_residual: f64,
-    /// The power put in [W], or a hundredth of tension at rest times speed of the belt, if that is more.
+    /// The power put in [W], or a hundredth of tension on rigid pulleys times speed of the belt, if that is more.
     pub power_scale: f64,
     /// The belt point by point.
     pub profile: Vec<ProfileRow>,
@@ -380,10 +385,12 @@ impl<E: BeltElementType> RunningBelt<E> {
                 .prescribed
                 .iter()
                 .zip(&self.assembly.layout.arcs);
-            surfaces.filter_map(|(speed, arc)| speed.map(|speed| speed.abs() * arc.radius))
+            surfaces.filter_map(|(speed, arc)| {
+                speed.map(|speed| speed * arc.radius * arc.sweep.signum())
+            })
         };
         let slowest = drivers().fold(f64::INFINITY, f64::min);
-        let fastest = drivers().fold(0.0, f64::max);
+        let fastest = drivers().fold(f64::NEG_INFINITY, f64::max);
         RunningError::NotFound(if centrifugal > LIFT_OFF * tension {
             Obstacle::LiftOff {
                 speed,
@@ -395,7 +402,7 @@ impl<E: BeltElementType> RunningBelt<E> {
                 speed,
                 waves: self.bending_waves,
             }
-        } else if fastest > slowest {
+        } else if fastest - slowest > 1.0e-9 * fastest.abs() {
             Obstacle::Drivers { slowest, fastest }
         } else {
             Obstacle::Unknown

@@ -42,7 +42,7 @@ impl Averaged {
         }
     }
 
-    /// What part of the run it is, at its end.
+    /// What part of the run it is, at its end, of a run that has not settled.
     pub fn in_words(&self) -> String {
         match self.periods {
             None => "tenth of the run".to_owned(),

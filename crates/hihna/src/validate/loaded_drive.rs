@@ -106,11 +106,11 @@ impl Loaded {
         Ok(self.swing(span, LAST)? / self.swing(span, FIRST)?)
     }
 
-    /// Swing of a span in the last 0.1 s over its largest in 0.1 s of the ramp.
+    /// Swing of a span in the last 0.1 s over its largest in 0.1 s of the ramp, in windows half of which overlap.
     fn dying(&self, span: &str) -> Result<f64, CaseError> {
         let mut largest = 0.0;
-        for i in 0..5 {
-            let from = RAMP[0] + 0.1 * f64::from(i);
+        for i in 0..ENVELOPE - 1 {
+            let from = RAMP[0] + 0.05 * i as f64;
             largest = f64::max(largest, self.swing(span, [from, from + 0.1])?);
         }
         Ok(self.swing(span, LAST)? / largest)

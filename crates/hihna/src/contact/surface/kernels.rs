@@ -82,7 +82,7 @@ fn for_touches<S: EightLanes>(
             }
             let [center, drift] = pulley.hub(state.time);
             let arm = less(r, center);
-            let meridian = pulley.meridian(table.side, this.penalty.slip_lever);
+            let meridian = pulley.meridian(table.side, this.penalty.slip_lever_part);
             if !reaches(&meridian, pulley.axis, arm) {
                 continue;
             }

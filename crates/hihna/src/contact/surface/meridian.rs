@@ -62,7 +62,7 @@ impl Groove {
             slope: flank.sign() * self.slope,
             curvature: 0.0,
             unit: self.sine,
-            lever: 0.0,
+            lever_part: 0.0,
         }
     }
 }
@@ -80,7 +80,7 @@ pub(super) struct Meridian {
     /// `1 / sqrt(1 + R'²)` where at right angles to the surface, a cone.
     pub unit: f64,
     /// Part of the depth `R - rho` by which the lever of the slip exceeds that of the force.
-    pub lever: f64,
+    pub lever_part: f64,
 }
 
 impl Meridian {

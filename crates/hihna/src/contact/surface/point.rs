@@ -144,7 +144,7 @@ impl<S: Scalar> SurfacePoint<S> {
         let unit = meridian.unit;
         let penetration = depth * unit;
         let rate = (slope * v[2] - v[0]) * unit;
-        let lever = distance + depth * meridian.lever;
+        let lever = distance + depth * meridian.lever_part;
         let slip = [v[1] - meeting.speed * lever, (v[2] + slope * v[0]) * unit];
         let force = penetration * penalty.stiffness + rate * penalty.damping;
         // One where the point touches, one where its normal force acts; zero elsewhere.
@@ -256,7 +256,7 @@ impl<S: Scalar> SurfacePoint<S> {
         let Meridian {
             curvature,
             unit,
-            lever,
+            lever_part,
             ..
         } = self.meridian;
         let slope = self.slope * unit;
@@ -274,9 +274,9 @@ impl<S: Scalar> SurfacePoint<S> {
         ];
         let slip_by = [
             [
-                -(self.speed * ((1.0 - lever) * gq)),
+                -(self.speed * ((1.0 - lever_part) * gq)),
                 -(vn * turn) + gv,
-                -(self.speed * self.slope * (lever * gq)),
+                -(self.speed * self.slope * (lever_part * gq)),
             ],
             [a[0] * gv, slope * vt * turn, a[2] * gv + vn * (bend * gq)],
         ];

@@ -69,7 +69,7 @@ fn answer<S: Scalar>(
         damping: 3.0e4,
         clamp,
         // Both places of slip, one with each.
-        slip_lever: if clamp { 0.0 } else { 1.0 },
+        slip_lever_part: if clamp { 0.0 } else { 1.0 },
     };
     let meeting = Meeting {
         arm: [x[0], x[1], x[2]],
@@ -78,7 +78,7 @@ fn answer<S: Scalar>(
     };
     let at = SurfacePoint::new(
         &penalty,
-        (pulley, pulley.meridian(side, penalty.slip_lever)),
+        (pulley, pulley.meridian(side, penalty.slip_lever_part)),
         directions,
         &meeting,
     );
@@ -98,7 +98,7 @@ fn analytic(
         damping: 3.0e4,
         clamp,
         // Both places of slip, one with each.
-        slip_lever: if clamp { 0.0 } else { 1.0 },
+        slip_lever_part: if clamp { 0.0 } else { 1.0 },
     };
     let meeting = Meeting {
         arm: [x[0], x[1], x[2]],
@@ -107,7 +107,7 @@ fn analytic(
     };
     let at = SurfacePoint::new(
         &penalty,
-        (pulley, pulley.meridian(side, penalty.slip_lever)),
+        (pulley, pulley.meridian(side, penalty.slip_lever_part)),
         directions,
         &meeting,
     );
@@ -219,7 +219,7 @@ proptest! {
     #[test]
     fn friction_stays_in_the_disc(x in points(), speed in -12.0..12.0_f64) {
         let pulley = pulley(LAWS[0].clone(), [0.0; 2], 0.0, 0.0);
-        let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false, slip_lever: 1.0 };
+        let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false, slip_lever_part: 1.0 };
         let meeting = Meeting { arm: [x[0], x[1], x[2]], v: [x[3], x[4], x[5]], speed };
         let at = {
             let surface = (&pulley, pulley.meridian(Side::Face, 1.0));
@@ -243,7 +243,7 @@ proptest! {
     ) {
         let pulley = pulley(LAWS[0].clone(), [0.0; 2], 0.05, 0.3);
         let flank = if upper { Flank::Upper } else { Flank::Lower };
-        let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false, slip_lever: 1.0 };
+        let penalty = Penalty { stiffness: 1.0e7, damping: 0.0, clamp: false, slip_lever_part: 1.0 };
         let s = flank.sign() * 0.01 + along;
         let meeting = Meeting { arm: [0.1 + radial, 0.0, s], v, speed };
         let surface = (&pulley, pulley.meridian(Side::Flank(flank), 1.0));

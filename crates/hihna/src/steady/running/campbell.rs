@@ -19,9 +19,8 @@ use crate::drive::Drive;
 
 /// Modes found beside those asked for: others may come down among them at the next value.
 const SPARE: usize = 4;
-/// Most of them, by those asked for, that are looked through for the modes that are followed: creep has many of low frequency that hardly
-/// swing.
-const MOST_SPARE: usize = 8;
+/// How many times as many are looked through at most for the modes that are followed: creep has many of low frequency that hardly swing.
+const MOST_TIMES: usize = 8;
 /// Least similarity of two modes that are taken for one.
 const SIMILAR: f64 = 0.5;
 
@@ -122,7 +121,7 @@ fn find<E: BeltElementType>(
 ) -> Result<(Vec<Mode>, Vec<Velocities>), RunningError> {
     let masses = belt.nodal_masses();
     let mut wanted = count + SPARE;
-    let most = MOST_SPARE * wanted;
+    let most = MOST_TIMES * wanted;
     loop {
         let modes = belt.modes(running, wanted)?;
         let looks: Vec<_> = (modes.iter())

@@ -218,7 +218,7 @@ impl<E: BeltElementType> RunningBelt<E> {
         }
         // Solutions are lost where the last points of an arc begin to slide, with the load all but exhausted. Anywhere else nothing is
         // known of those beyond.
-        let sliding = gain < GAIN_OF_SLIDING && self.slides(&way.last().z.clone());
+        let sliding = gain < GAIN_OF_SLIDING && self.slides(&way.last().z);
         if gain < UNKNOWN_GAIN || sliding {
             Way::Exhausted(self.capacity_on(way))
         } else {

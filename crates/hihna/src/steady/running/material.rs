@@ -31,7 +31,7 @@ impl<E: BeltElementType> RunningBelt<E> {
             mass.set_unit_row(row);
         }
         let mut solver = CyclicSolver::new(structure);
-        solver.factor(&mass).map_err(|_| self.not_found())?;
+        solver.factor(&mass).map_err(|_| RunningError::Singular)?;
         let mut coordinates = running.state.clone();
         coordinates[chain..].fill(0.0);
         let mut velocities = vec![0.0; structure.size()];

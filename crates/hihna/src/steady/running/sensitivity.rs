@@ -52,7 +52,7 @@ impl<E: BeltElementType> RunningBelt<E> {
         let z = &running.state;
         self.newton
             .factor(&mut self.equations, z)
-            .map_err(|_| self.not_found())?;
+            .map_err(|_| RunningError::Singular)?;
         let outputs: Vec<Output> = self.results(drive, z);
         let mut inputs = Vec::with_capacity(fields.len());
         for field in fields {
@@ -126,7 +126,8 @@ impl<E: BeltElementType> RunningBelt<E> {
             let (more, whole) = (size(&correction), size(&by_field));
             let stalled = more > 0.5 * before;
             before = more;
-            let small = more <= ROUND_OFF * whole || more * value.abs() <= NOTHING * size(z);
+            let hardly_matters = value != 0.0 && more * value.abs() <= NOTHING * size(z);
+            let small = more <= ROUND_OFF * whole || hardly_matters;
             if more <= CONVERGED * whole || (stalled && small) {
                 return Ok(by_field);
             }

@@ -142,7 +142,7 @@ pub struct SlackSummary {
 pub struct Audit {
     /// Power neither put in nor taken out nor lost, relative to `power_scale` [-].
     pub power_residual: f64,
-    /// The power put in [W], or a hundredth of tension at rest times speed of the belt, if that is more.
+    /// The power put in [W], or a hundredth of tension on rigid pulleys times speed of the belt, if that is more.
     pub power_scale: f64,
     /// Largest magnitude that passes.
     pub tolerance: f64,
@@ -156,7 +156,7 @@ impl Audit {
         let residual = self.power_residual;
         if put_in < self.power_scale {
             format!(
-                "{residual:.1e} of {} ({:.0} % of tension at rest times belt speed, as hardly any power is put in)",
+                "{residual:.1e} of {} ({:.0} % of tension on rigid pulleys times belt speed, as hardly any power is put in)",
                 with_prefix(self.power_scale, "W"),
                 100.0 * LEAST_POWER
             )
