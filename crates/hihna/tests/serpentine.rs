@@ -52,7 +52,7 @@ fn a_serpentine_balances() {
 }
 
 /// Contact comes and goes twice a step here: the nonlinear solver must not spend itself on factors that no longer
-/// fit. A tangent with its factor costs as much as four evaluations; the limit leaves a quarter more than the 6.3 that
+/// fit. A tangent with its factor costs as much as five evaluations; the limit leaves a quarter more than the 7.5 that
 /// it takes.
 #[test]
 fn a_step_needs_few_evaluations() {
@@ -61,6 +61,6 @@ fn a_step_needs_few_evaluations() {
     let outcome = simulate(&drive, &mut |_| Flow::Continue).expect("the drive runs");
     let cost = outcome.statistics;
     let steps = (cost.steps + cost.halved_steps) as f64;
-    let evaluations = (cost.force_evaluations + 4 * cost.tangent_evaluations) as f64 / steps;
-    assert!(evaluations < 8.0, "{evaluations} evaluations a step");
+    let evaluations = (cost.force_evaluations + 5 * cost.tangent_evaluations) as f64 / steps;
+    assert!(evaluations < 9.4, "{evaluations} evaluations a step");
 }

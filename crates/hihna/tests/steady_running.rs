@@ -517,7 +517,7 @@ fn refusals() {
             "needs an even speed",
         ),
         (&["pulley.driver.angle=1"], "driven by its `angle`"),
-        (&["pulley.driver.speed=300"], "the belt needs 61.2"),
+        (&["pulley.driver.speed=300"], "centrifugal forces take 61.2"),
         (&["contact.friction.coefficient=0"], "no friction on pulley"),
     ] {
         let told = refusal(BASE, changes);

@@ -8,6 +8,8 @@ const DRIVE: &str = include_str!("../../../../examples/figures_3_10_to_3_20.toml
 const TIGHT: &str = "driven-driver";
 const SLACK: &str = "driver-driven";
 const DRIVEN: usize = 1;
+/// Of the driver [rad/s].
+const FINAL_SPEED: f64 = 120.0;
 /// The ramp of speed and torque, a part of it as long as [`STEADY`], and one around Fig. 3.12's 0.428 s [s].
 const RAMP: [f64; 2] = [0.05, 0.60];
 const LATE_RAMP: [f64; 2] = [0.40, 0.60];
@@ -221,12 +223,37 @@ pub(super) fn figures_3_10_to_3_20() -> Result<Quantities, CaseError> {
             loaded.wandering(),
         ));
     }
+    quantities.extend(points("slope 1e5", &loads[0].1)?);
+    quantities.extend(points("slope 1e4", &loads[1].1)?);
     let [(_, steep), (_, flat)] = [&loads[2], &loads[3]];
     quantities.extend(arcs(steep, flat));
     quantities.push((
         "driven speed with slope 1e5 less that with 1e4".to_owned(),
         steep.mean("driven.speed")? - flat.mean("driven.speed")?,
     ));
+    Ok(quantities)
+}
+
+/// Driven speed with 5 and 11 integration points against that with 7, the largest difference by the final speed [%].
+fn points(slope: &str, seven: &Loaded) -> Result<Quantities, CaseError> {
+    let law = slope.replace("slope ", "contact.friction.slope=");
+    let speeds = seven.run.column("driven.speed")?;
+    let mut quantities = Quantities::new();
+    for count in ["5", "11"] {
+        let points = format!("contact.points={count}");
+        let changes = [
+            "belt.elements=30",
+            &law,
+            &points,
+            "run.output_interval=5e-4",
+        ];
+        let other = TimeRun::new(DRIVE, &changes)?.column("driven.speed")?;
+        let apart = speeds.iter().zip(&other).map(|(a, b)| (a - b).abs());
+        quantities.push((
+            format!("7 from {count} points, 30 elements, {slope}"),
+            apart.fold(0.0, f64::max) / FINAL_SPEED * 100.0,
+        ));
+    }
     Ok(quantities)
 }
 
