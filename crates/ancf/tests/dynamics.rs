@@ -76,15 +76,21 @@ const ELEMENTS: usize = 4;
 /// Flight time [s].
 const FLIGHT: f64 = 0.004;
 
+/// The thrown chain, ready for a first step.
+fn begun() -> (System<BeltBeam2, ()>, Stage, Motion) {
+    let mut system = chain(ELEMENTS, ());
+    let mut motion = thrown(ELEMENTS);
+    let mut stage = Stage::new(&system, 1.0e-12);
+    stage.accelerations(&mut system, &mut motion);
+    motion.algorithmic.copy_from_slice(&motion.a);
+    (system, stage, motion)
+}
+
 /// Velocities change by what the scheme says of its integration, to what Newton's method leaves over of accelerations of 1e5 m/s² in steps of
 /// 1e-4 s: also right after another scheme has made a step, with the algorithmic accelerations that it leaves.
 #[test]
 fn steps_add_up_by_their_rule() {
-    let mut system = chain(ELEMENTS, ());
-    let mut from = thrown(ELEMENTS);
-    let mut stage = Stage::new(&system, 1.0e-12);
-    stage.accelerations(&mut system, &mut from);
-    from.algorithmic.copy_from_slice(&from.a);
+    let (mut system, mut stage, mut from) = begun();
     let mut to = from.clone();
     let mut alpha = GeneralizedAlpha::new(0.8);
     let mut bdf = TrBdf2::new(from.q.len());
@@ -113,11 +119,7 @@ fn steps_add_up_by_their_rule() {
 }
 
 fn fly(mut scheme: impl Scheme, steps: usize) -> Motion {
-    let mut system = chain(ELEMENTS, ());
-    let mut from = thrown(ELEMENTS);
-    let mut stage = Stage::new(&system, 1.0e-12);
-    stage.accelerations(&mut system, &mut from);
-    from.algorithmic.copy_from_slice(&from.a);
+    let (mut system, mut stage, mut from) = begun();
     let mut to = from.clone();
     for _ in 0..steps {
         scheme
